@@ -1,0 +1,1 @@
+"""Generative crowds: one sentence in, a populated world out."""

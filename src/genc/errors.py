@@ -1,0 +1,60 @@
+"""The errors a user can meet, drawn as a tree.
+
+Room: errors. In: nothing. Out: exceptions. May import: nothing.
+
+    GencError                 something genc says in one line; the command line exits with 2
+    +-- BriefError            the request cannot be met: empty sentence, a count out of range
+    +-- ScriptError           a scenario script or its JSON is wrong; carries every problem found
+    +-- LayoutError           an environment cannot be used
+    +-- EncoderError          a text encoder is missing, altered, or the wrong one
+    +-- DatasetError          a dataset folder is missing, incomplete or of another version
+    +-- CheckpointError       model weights are missing, damaged, or do not fit this version
+    +-- WorldFileError        a world file is missing, cut short, or of another version
+    +-- OutputError           a result cannot be written where it was asked for
+
+A message says what was wrong, the value, where it came from, and what to do about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+class GencError(Exception):
+    """The root: catch this to catch everything that genc raises on purpose."""
+
+
+class BriefError(GencError):
+    """A request that no crowd can meet."""
+
+
+class ScriptError(GencError):
+    """A scenario script that cannot be used; `problems` holds one line for each fault."""
+
+    def __init__(self, problems: Sequence[str]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(self.problems))
+
+
+class LayoutError(GencError):
+    """An environment in which no crowd can be placed."""
+
+
+class EncoderError(GencError):
+    """A text encoder that cannot be loaded or does not match."""
+
+
+class DatasetError(GencError):
+    """A dataset folder that cannot be used."""
+
+
+class CheckpointError(GencError):
+    """Model weights that cannot be used."""
+
+
+class WorldFileError(GencError):
+    """A world file that cannot be read."""
+
+
+class OutputError(GencError):
+    """A place where nothing can be written."""

@@ -1,0 +1,83 @@
+"""`CrowdPlan`: for every person, a gapless row of activities."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from genc.scenario.scenario import Environment
+from genc.words.vocabulary import Action
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A spot for one person: a point (x, y) in metres and a facing, radians counter-clockwise from +x."""
+
+    position_m: tuple[float, float]
+    facing_rad: float
+
+
+@dataclass(frozen=True)
+class Activity:
+    """One thing that one person does at one place.
+
+    Attributes:
+        action: what is done.
+        location: index into the environment's locations.
+        slot: where in it.
+        leave_s: when the person sets off for the slot; equals the end of the activity before.
+        start_s: when the doing begins: everybody has arrived and, at a service, it is their turn.
+        end_s: when it ends. `leave_s <= start_s <= end_s`; seconds from the beginning of the world.
+        occasion: number of the joint doing; the activities of all partners carry the same number, and it is
+            used by nobody else. Partners begin an occasion together.
+        partners: the other people of the occasion, ascending agent numbers.
+        implied: True where the plan needed it (coming in, leaving) and no graph node asked for it.
+    """
+
+    action: Action
+    location: int
+    slot: Slot
+    leave_s: float
+    start_s: float
+    end_s: float
+    occasion: int
+    partners: tuple[int, ...] = ()
+    implied: bool = False
+
+
+@dataclass(frozen=True)
+class Person:
+    """One agent of the crowd.
+
+    Attributes:
+        group: the number of the group it belongs to; groups are numbered from 0.
+        speed_mps: preferred walking speed.
+        activities: in order; gapless: each `leave_s` is the `end_s` before it. The first `leave_s` is the
+            moment of appearing in the scene.
+        leaves: True if the person vanishes at the end of the last activity (an exit); otherwise the person
+            stays in the last slot to the end of the world.
+    """
+
+    group: int
+    speed_mps: float
+    activities: tuple[Activity, ...]
+    leaves: bool
+
+
+@dataclass(frozen=True)
+class CrowdPlan:
+    """All people of a world with their plans; a person's number is its index in `people`.
+
+    Attributes:
+        environment: where it happens.
+        people: the crowd.
+        duration_s: length of the world.
+        captions: for each group, one line saying what it was asked to be (text of its brief or caption).
+        notes: what the planner had to change, one sentence each (a category that the layout lacks and what
+            stood in for it, ...).
+    """
+
+    environment: Environment
+    people: tuple[Person, ...]
+    duration_s: float
+    captions: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
