@@ -1,5 +1,5 @@
-"""Measures: how close a crowd of generated graphs is to a crowd of authored ones.
+"""Measures: how close a crowd of generated groups is to a crowd of authored ones.
 
-In: lists of `CrowdGraph`. Out: numbers with their floors.
+In: lists of `CrowdGraph`, briefs. Out: divergences beside their floors, adherence, two baselines.
 May import: world and everything below. Never: learn, pipeline, cli.
 """

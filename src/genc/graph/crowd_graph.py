@@ -96,7 +96,8 @@ class CrowdGraph:
         adjacent = np.abs(self.step[:, None] - self.step[None, :]) == 1
         moment = self.event * self.n_nodes + self.turn
         together = (moment[:, None] == moment[None, :]) & ~same_agent
-        return (same_agent & adjacent).astype(np.int8) - together.astype(np.int8)
+        signed: NDArray[np.int8] = (same_agent & adjacent).astype(np.int8) - together.astype(np.int8)
+        return signed
 
     @cached_property
     def part(self) -> Ints:
@@ -113,8 +114,8 @@ class CrowdGraph:
         return [self._take(self.part == k) for k in range(int(self.part.max()) + 1)]
 
     def _take(self, mask: NDArray[np.bool_]) -> CrowdGraph:
-        agents, agent = np.unique(self.agent[mask], return_inverse=True)
-        events, event = np.unique(self.event[mask], return_inverse=True)
+        agent = np.unique(self.agent[mask], return_inverse=True)[1]
+        event = np.unique(self.event[mask], return_inverse=True)[1]
         return CrowdGraph(agent, event, self.action[mask], self.category[mask])
 
     def __eq__(self, other: object) -> bool:

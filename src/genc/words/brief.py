@@ -37,9 +37,7 @@ class Brief:
         if not self.text.strip():
             raise BriefError("the sentence is empty: say where it is, who is there and what they do")
         if len(self.text) > LONGEST_TEXT:
-            raise BriefError(
-                f"the sentence has {len(self.text)} characters; at most {LONGEST_TEXT} can be read"
-            )
+            raise BriefError(f"the sentence has {len(self.text)} characters; at most {LONGEST_TEXT} can be read")
         self._check_count("agents", self.n_agents, MAX_AGENTS)
         self._check_count("events", self.n_events, MAX_EVENTS)
         self._check_count("nodes", self.n_nodes, MAX_NODES)

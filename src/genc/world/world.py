@@ -9,6 +9,9 @@ from genc.motion.motion import Motion
 from genc.plan.plan import CrowdPlan
 
 
+Provenance = Mapping[str, str | int | float | None]
+
+
 @dataclass(frozen=True, eq=False)
 class World:
     """A populated world.
@@ -22,4 +25,4 @@ class World:
 
     plan: CrowdPlan
     motion: Motion
-    provenance: Mapping[str, str | int | float | None] = field(default_factory=dict)
+    provenance: Provenance = field(default_factory=dict)

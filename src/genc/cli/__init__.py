@@ -1,0 +1,35 @@
+"""The command line: the only room that prints, parses arguments or exits.
+
+In: arguments. Out: files, lines, an exit code. May import: everything. Never: be imported.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from genc.cli.corpus import corpus
+from genc.cli.learning import dataset, train
+from genc.cli.worlds import populate, stage, story
+from genc.errors import GencError
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="genc")
+def cli() -> None:
+    """One sentence in, a populated world out."""
+
+
+for command in (populate, stage, story, corpus, dataset, train):
+    cli.add_command(command)
+
+
+def main() -> None:
+    """Runs the command line; what the user can mend is said in one line each, with exit code 2."""
+    try:
+        cli()
+    except GencError as error:
+        for line in str(error).splitlines():
+            click.echo(f"error: {line}", err=True)
+        sys.exit(2)

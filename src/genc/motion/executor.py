@@ -1,0 +1,345 @@
+"""The executor: a plan carried out in closed loop.
+
+Nothing begins because the clock says so alone: a doing begins when all its people have really arrived, at a service
+when it is their turn, and never before the plan would have it (the plan knows what must come first). Who is early
+waits in sight; who is late is waited for, up to a limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from genc.motion.clock import Clock, Errand, Life, Wait
+from genc.motion.line import Line, Party
+from genc.motion.motion import Motion, Status
+from genc.motion.occasion import Occasion, Row, occasions
+from genc.motion.spots import Spots
+from genc.motion.staff import behind, workplaces
+from genc.motion.stage import Stage
+from genc.motion.steering import Steering
+from genc.motion.stroll import PACE, Strolls
+from genc.plan.plan import Activity, CrowdPlan, Person, Slot
+from genc.words.vocabulary import Action, Category
+
+if TYPE_CHECKING:
+    from genc.plan.slots import Places
+    from genc.plan.walkable import Walkable
+
+_SLOWEST = 4.0
+_LOST_S = 60.0
+"""A walk that takes longer than this and `_SLOWEST` times the straight way has failed."""
+_AT_ONCE_S = 5.0
+"""Who goes on being served within this time keeps the service slot."""
+_PASSING = (Action.ENTER_EXIT, Action.WANDER)
+"""Doings that take up no slot."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a plan is carried out.
+
+    Attributes:
+        patience_s: how long a late partner is waited for, counted from the planned beginning or from one's own
+            arrival, whichever is later.
+        n_steps_a_frame: steps of the steering for each stored frame.
+    """
+
+    patience_s: float = 180.0
+    n_steps_a_frame: int = 2
+
+
+def simulate(
+    plan: CrowdPlan,
+    walkable: Walkable,
+    places: Sequence[Places],
+    steering: Steering,
+    options: Options,
+    rng: np.random.Generator,
+) -> Motion:
+    """What becomes of a plan: where everybody is at every frame, and what they really do.
+
+    Args:
+        plan: who is to do what, where and when.
+        walkable: the free ground of the plan's environment.
+        places: for each location, its service slots and its line.
+        steering: what moves the people; made for as many as the plan has.
+        options: patience and frame rate.
+        rng: decides where people who wander turn next.
+    """
+    return _Play(plan, walkable, places, steering, options, rng).run()
+
+
+class _Play:
+    """One run: the lives of all people, and the occasions at which they meet."""
+
+    def __init__(
+        self,
+        plan: CrowdPlan,
+        walkable: Walkable,
+        places: Sequence[Places],
+        steering: Steering,
+        options: Options,
+        rng: np.random.Generator,
+    ) -> None:
+        self.plan = plan
+        self.patience_s = options.patience_s
+        self.clock = Clock()
+        n_frames = 1 + int(plan.duration_s / (steering.dt_s * options.n_steps_a_frame) + 1e-6)
+        self.stage = Stage(steering, self.clock, n_frames, options.n_steps_a_frame)
+        kept_free = [slot for place in places for slot in place.service]
+        self.spots = Spots(len(plan.people), walkable, kept_free)
+        self.strolls = Strolls(plan.environment, walkable, rng)
+        self.lines = [Line(place.line, place.service, self.stage.send, self.clock.fire) for place in places]
+        self.service = [{slot.position_m for slot in place.service} for place in places]
+        self.solid = [
+            place.category is Category.BUILDING and not walkable.free(np.array([place.position_m]))[0]
+            for place in plan.environment.locations
+        ]
+        self.occasions = occasions(plan)
+        self.workplace = workplaces(plan)
+        self.behind = {
+            place: behind(plan.environment.locations[place], places[place].service[0], walkable)
+            for place in self.workplace
+            if place is not None and places[place].service
+        }
+        self.rows: list[Row] = []
+        self.inside: dict[int, int] = {}
+
+    def run(self) -> Motion:
+        """Lets everybody live until the world ends."""
+        for agent, person in enumerate(self.plan.people):
+            if person.activities:
+                self.clock.start(self._life(agent, person))
+        self.stage.play()
+        for row in self.rows:
+            if math.isnan(row.start_s):
+                row.position_m, row.facing_rad = self.stage.position_m(row.agent), self.stage.facing_rad(row.agent)
+        self.rows.sort(key=lambda row: (row.agent, row.step))
+        return self.stage.motion(tuple(row.executed() for row in self.rows))
+
+    # What one person goes through.
+
+    def _life(self, agent: int, person: Person) -> Life:
+        yield Wait(until_s=person.activities[0].leave_s)
+        self._come(agent, person)
+        for step, activity in enumerate(person.activities):
+            occasion = self.occasions[activity.occasion]
+            row = Row(agent, step, self.clock.now_s)
+            self.rows.append(row)
+            arrived = yield from self._go(agent, step, activity)
+            row.arrive_s = self.clock.now_s
+            yield from self._meet(agent, occasion)
+            row.start_s = self.clock.now_s
+            row.position_m, row.facing_rad = self.stage.position_m(agent), self.stage.facing_rad(agent)
+            yield Wait(occasion.over)
+            row.end_s = self.clock.now_s
+            row.status = Status.DONE if arrived and not occasion.incomplete else Status.TIMEOUT
+        self._end(agent, person)
+
+    def _come(self, agent: int, person: Person) -> None:
+        first = person.activities[0]
+        if self._lines_up(agent, 0):
+            slot = self.lines[first.location].tail()
+        else:
+            slot = self.spots.take(agent, self._slot(agent, first))
+        self.stage.appear(agent, slot, person.speed_mps)
+
+    def _go(self, agent: int, step: int, activity: Activity) -> Errand:
+        """Brings a person to where the activity is."""
+        if self.inside.get(agent) == activity.location:
+            return True
+        self._come_out(agent)
+        self.spots.give_back(agent)
+        line = self.lines[activity.location]
+        if agent in line.served:
+            return (yield from self._walk(agent, line.served[agent]))
+        together = self.occasions[activity.occasion].steps
+        if self._lines_up(agent, step) and not any(other in line.served for other in together):
+            return (yield from self._walk(agent, line.tail()))
+        slot = self._slot(agent, activity)
+        arrived = yield from self._walk(agent, slot)
+        if activity.action in _PASSING:
+            return arrived
+        return (yield from self._walk(agent, self.spots.take(agent, slot))) and arrived
+
+    def _walk(self, agent: int, slot: Slot) -> Errand:
+        """Walks to a slot; False if it takes so long that the way must be lost. Then one stays where one is."""
+        here_m = self.stage.position_m(agent)
+        if here_m == slot.position_m:
+            self.stage.face(agent, slot.facing_rad)
+            return True
+        shortest_s = math.dist(here_m, slot.position_m) / self.plan.people[agent].speed_mps
+        limit_s = self.clock.now_s + _SLOWEST * shortest_s + _LOST_S
+        arrived = yield Wait(self.stage.send(agent, slot), limit_s)
+        self.stage.stop(agent)
+        return arrived
+
+    def _meet(self, agent: int, occasion: Occasion) -> Life:
+        """Waits for the others and for the beginning; who comes too late finds it begun, or over."""
+        if not occasion.gathered.happened:
+            if not occasion.here:
+                self.clock.start(self._conduct(occasion))
+            occasion.here.append(agent)
+            if len(occasion.here) == len(occasion.steps):
+                self.clock.fire(occasion.gathered)
+            elif self._lines_up(agent, occasion.steps[agent]):
+                self.lines[occasion.activity.location].gather(agent)
+            limit_s = max(self.clock.now_s, occasion.activity.start_s) + self.patience_s
+            yield Wait(occasion.gathered, limit_s)
+            if not occasion.gathered.happened:
+                occasion.incomplete = True
+                self.clock.fire(occasion.gathered)
+        yield Wait(occasion.begun)
+
+    def _end(self, agent: int, person: Person) -> None:
+        """What becomes of a person whose plan is done: gone, or in nobody's way."""
+        if person.leaves:
+            self.spots.give_back(agent)
+            self.stage.vanish(agent)
+        elif self._lines_up(agent, len(person.activities) - 1):
+            last = person.activities[-1].slot
+            here = Slot(self.stage.position_m(agent), last.facing_rad)
+            self.stage.send(agent, self.spots.take(agent, self.spots.beside(here)))
+
+    # What an occasion goes through.
+
+    def _conduct(self, occasion: Occasion) -> Life:
+        yield Wait(occasion.gathered)
+        agents, activity = tuple(occasion.here), occasion.activity
+        if activity.action is Action.QUEUE:
+            yield from self._queue(occasion)
+        elif any(self._lines_up(agent, occasion.steps[agent]) for agent in agents):
+            yield from self._serve(occasion)
+        else:
+            yield Wait(until_s=activity.start_s)
+            self._begin(occasion)
+            if activity.action is Action.WANDER and not self.inside.keys() & set(agents):
+                yield from self._stroll(occasion)
+            else:
+                yield Wait(until_s=self.clock.now_s + occasion.duration_s)
+        self.clock.fire(occasion.over)
+
+    def _queue(self, occasion: Occasion) -> Life:
+        """Stands in line until it is their turn."""
+        agents, line = tuple(occasion.here), self.lines[occasion.activity.location]
+        customers = tuple(agent for agent in agents if self._next_is_service(agent, occasion))
+        party = Party(agents, customers)
+        line.join(party)
+        yield Wait(until_s=occasion.activity.start_s)
+        self._begin(occasion)
+        start_s = self.clock.now_s
+        line.let(party)
+        yield Wait(party.turn)
+        if not customers:
+            yield Wait(self.stage.arrival(agents[0]))
+            yield Wait(until_s=start_s + occasion.duration_s)
+            line.leave(party)
+
+    def _serve(self, occasion: Occasion) -> Life:
+        """Waits for a service slot, if nobody has one yet, is served, and makes room for the next."""
+        agents, line = tuple(occasion.here), self.lines[occasion.activity.location]
+        if not any(agent in line.served for agent in agents):
+            customers = tuple(agent for agent in agents if self._lines_up(agent, occasion.steps[agent]))
+            party = Party(agents, customers)
+            line.join(party)
+            yield Wait(until_s=occasion.activity.start_s)
+            line.let(party)
+            yield Wait(party.turn)
+            yield from self._step_up(occasion, line)
+        self._begin(occasion)
+        yield Wait(until_s=self.clock.now_s + occasion.duration_s)
+        for agent in agents:
+            if not self._stays_served(agent, occasion):
+                line.release(agent)
+
+    def _step_up(self, occasion: Occasion, line: Line) -> Life:
+        """Brings a party from the line to the service slots; who has none stands beside."""
+        arrivals = []
+        for agent in occasion.here:
+            planned = self.plan.people[agent].activities[occasion.steps[agent]].slot
+            slot = line.served[agent] if agent in line.served else self.spots.take(agent, planned)
+            arrivals.append(self.stage.send(agent, slot))
+        for arrival in arrivals:
+            yield Wait(arrival, self.clock.now_s + _LOST_S)
+
+    def _stroll(self, occasion: Occasion) -> Life:
+        """Wanders from point to point, together, until the time is over."""
+        agents, end_s = tuple(occasion.here), self.clock.now_s + occasion.duration_s
+        while self.clock.now_s < end_s:
+            here_m = [self.stage.position_m(agent) for agent in agents]
+            goals = self.strolls.next(occasion.activity.location, here_m)
+            arrivals = [self.stage.send(agent, goal, PACE) for agent, goal in zip(agents, goals, strict=True)]
+            for arrival in arrivals:
+                yield Wait(arrival, end_s)
+            yield Wait(until_s=min(end_s, self.clock.now_s + self.strolls.pause_s()))
+        for agent in agents:
+            self.stage.stop(agent)
+
+    def _begin(self, occasion: Occasion) -> None:
+        if self.solid[occasion.activity.location]:
+            self._use_door(occasion)
+        self.clock.fire(occasion.begun)
+
+    # Doors.
+
+    def _use_door(self, occasion: Occasion) -> None:
+        """Lets people go into a building, or come out, or find each other in it."""
+        agents, activity = occasion.here, occasion.activity
+        passing = activity.action is Action.ENTER_EXIT
+        anybody_inside = any(self.inside.get(agent) == activity.location for agent in agents)
+        for agent in agents:
+            if passing and agent in self.inside:
+                self._come_out(agent)
+            elif anybody_inside or (passing and not self._comes_from(agent, occasion.steps[agent])):
+                self.inside[agent] = activity.location
+                self.spots.give_back(agent)
+                self.stage.vanish(agent)
+
+    def _comes_from(self, agent: int, step: int) -> bool:
+        """Whether a life begins with coming out of a building: it goes on elsewhere."""
+        activities = self.plan.people[agent].activities
+        return step == 0 < len(activities) - 1 and activities[1].location != activities[0].location
+
+    def _come_out(self, agent: int) -> None:
+        if self.inside.pop(agent, None) is not None:
+            slot = Slot(self.stage.position_m(agent), self.stage.facing_rad(agent))
+            self.stage.appear(agent, slot, self.plan.people[agent].speed_mps)
+
+    # What the plan says about services.
+
+    def _slot(self, agent: int, activity: Activity) -> Slot:
+        """Where one does it: as planned, but staff stand behind the counter."""
+        at_work = activity.location == self.workplace[agent]
+        if at_work and activity.slot.position_m in self.service[activity.location]:
+            return self.behind[activity.location]
+        return activity.slot
+
+    def _lines_up(self, agent: int, step: int) -> bool:
+        """Whether one stands in line for this, or would if the service were busy."""
+        activity = self.plan.people[agent].activities[step]
+        if activity.action is Action.QUEUE:
+            return True
+        served = activity.slot.position_m in self.service[activity.location]
+        return served and activity.action not in _PASSING and activity.location != self.workplace[agent]
+
+    def _next_is_service(self, agent: int, occasion: Occasion) -> bool:
+        """Whether the next thing that an agent of this occasion does is to be served here, with nobody else."""
+        step = occasion.steps[agent] + 1
+        activities = self.plan.people[agent].activities
+        if step == len(activities) or activities[step].location != occasion.activity.location:
+            return False
+        if activities[step].action is Action.QUEUE or not self._lines_up(agent, step):
+            return False
+        following = self.occasions[activities[step].occasion].steps
+        return all(other in occasion.here and occasion.steps[other] + 1 == k for other, k in following.items())
+
+    def _stays_served(self, agent: int, occasion: Occasion) -> bool:
+        if not self._next_is_service(agent, occasion):
+            return False
+        now, then = self.plan.people[agent].activities[occasion.steps[agent] :][:2]
+        return then.start_s - now.end_s < _AT_ONCE_S

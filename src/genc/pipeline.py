@@ -1,0 +1,128 @@
+"""The product: one sentence in, a populated world out.
+
+Room: pipeline. In: a sentence. Out: a `World`. May import: every room below. Never: print, parse arguments, exit.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from genc.errors import BriefError
+from genc.graph.crowd_graph import CrowdGraph
+from genc.graph.weave import unfold
+from genc.model.checkpoint import load_generator
+from genc.model.generator import CodecGenerator
+from genc.motion.executor import Options, simulate
+from genc.motion.kinematic import Kinematic
+from genc.plan.compose import compose
+from genc.plan.crowd import PlanRequest, plan_crowd
+from genc.plan.plan import CrowdPlan
+from genc.plan.slots import places_of
+from genc.plan.walkable import Walkable
+from genc.scenario.corpus import load_corpus
+from genc.scenario.rehearse import rehearse
+from genc.scenario.scenario import Environment, Scenario
+from genc.words.brief import Brief
+from genc.words.embed import TextEncoder
+from genc.world.world import Provenance, World
+
+MOST_AGENTS = 20_000
+MOST_MINUTES = 240.0
+
+
+def populate(  # noqa: PLR0913 - the product's own door: every wish has a name and a default
+    text: str,
+    *,
+    n_agents: int = 60,
+    theme: str | None = None,
+    minutes: float = 10.0,
+    seed: int = 0,
+    environment: Environment | None = None,
+    generator: CodecGenerator | None = None,
+) -> World:
+    """A world with exactly `n_agents` people who live out the sentence; the same arguments give the same world.
+
+    Args:
+        text: where it is, who is there, and what they do.
+        theme: a theme of the shipped corpus; narrows the choice of a layout and colours the sentence.
+        minutes: length of the world.
+        environment: the layout; by default that of the authored scenario nearest in meaning.
+        generator: a trained generator; by default the one that comes with the package.
+
+    Raises:
+        BriefError: for an empty sentence, an unknown theme, or a crowd or length out of range.
+        LayoutError: for an environment in which nobody can be placed.
+        CheckpointError, EncoderError: if the generator or its text encoder cannot be loaded.
+    """
+    check_request(text, n_agents, minutes)
+    authored = load_corpus(None if theme is None else [theme])
+    generator = load_generator() if generator is None else generator
+    for_groups, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
+
+    asked = text if theme is None else f"{theme}: {text}"
+    layout = nearest_layout(asked, authored, generator.encoder) if environment is None else environment
+    groups = compose(partial(sample_groups, generator, asked, for_groups), n_agents, for_groups)
+    request = PlanRequest(
+        duration_s=60 * minutes,
+        captions=(text,) * len(groups),
+        affinity=np.repeat(affinity(asked, layout, generator.encoder), len(groups), axis=0),
+    )
+    plan = plan_crowd([unfold(group) for group in groups], layout, request, for_plan)
+    return play(plan, for_motion, {"text": text, "theme": theme, "seed": seed, "model": generator.hash})
+
+
+def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:
+    """A world in which a hand-written scenario is played as written, without a model.
+
+    Raises:
+        BriefError: for a length out of range.
+    """
+    check_request(scenario.sentence, 1, minutes)
+    for_order, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
+    rehearsal = rehearse(scenario, for_order)
+    groups = [
+        [record for record, group in zip(rehearsal.records, rehearsal.group_of, strict=True) if group == g]
+        for g in range(len(rehearsal.captions))
+    ]
+    request = PlanRequest(duration_s=60 * minutes, captions=rehearsal.captions, triggers=rehearsal.triggers)
+    plan = plan_crowd(groups, scenario.environment, request, for_plan)
+    return play(plan, for_motion, {"text": scenario.sentence, "theme": scenario.theme, "seed": seed, "model": None})
+
+
+def play(plan: CrowdPlan, rng: np.random.Generator, provenance: Provenance) -> World:
+    """The world in which a plan is carried out."""
+    ground = Walkable.of(plan.environment)
+    steering = Kinematic(len(plan.people), ground)
+    motion = simulate(plan, ground, places_of(plan.environment, ground), steering, Options(), rng)
+    return World(plan, motion, {**provenance, "steering": "kinematic"})
+
+
+def sample_groups(
+    generator: CodecGenerator, text: str, rng: np.random.Generator, n_groups: int, n_agents: int | None
+) -> list[CrowdGraph]:
+    """That many groups for one sentence, of `n_agents` people each if a number is given."""
+    return generator.sample([Brief(text, n_agents)] * n_groups, rng)
+
+
+def nearest_layout(text: str, authored: tuple[Scenario, ...], encoder: TextEncoder) -> Environment:
+    """The environment of the authored scenario whose sentence is nearest in meaning to the text."""
+    vectors = encoder.encode([text, *(scenario.sentence for scenario in authored)])
+    return authored[int(np.argmax(vectors[1:] @ vectors[0]))].environment
+
+
+def affinity(text: str, layout: Environment, encoder: TextEncoder) -> NDArray[np.float64]:
+    """How near in meaning each location's name is to the text, `[1, n_locations]`, cosine."""
+    vectors = encoder.encode([text, *(location.name for location in layout.locations)])
+    return (vectors[:1] @ vectors[1:].T).astype(np.float64)
+
+
+def check_request(text: str, n_agents: int, minutes: float) -> None:
+    """Raises `BriefError` for a sentence, crowd or length that no world can have."""
+    Brief(text)
+    if not 1 <= n_agents <= MOST_AGENTS:
+        raise BriefError(f"a crowd of {n_agents} cannot be made: ask for 1 to {MOST_AGENTS} agents")
+    if not 0 < minutes <= MOST_MINUTES:
+        raise BriefError(f"a world of {minutes} minutes cannot be made: ask for more than 0, at most {MOST_MINUTES:g}")
