@@ -64,7 +64,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
 
     asked = text if theme is None else f"{theme}: {text}"
     layout = nearest_layout(asked, authored, generator.encoder) if environment is None else environment
-    groups = compose(partial(sample_groups, generator, asked, for_groups), n_agents, for_groups)
+    groups = compose(partial(sample_groups, generator, asked, for_groups), n_agents)
     request = PlanRequest(
         duration_s=60 * minutes,
         captions=(text,) * len(groups),

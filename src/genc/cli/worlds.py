@@ -93,7 +93,7 @@ def stage(script: Path, slug: str | None, minutes: float, seed: int, out: Path, 
 def story(world: Path, agent: int | None, group: int | None) -> None:
     """Tells what happens in WORLD (a world file, or the folder of one) in plain sentences with clock times."""
     from genc.errors import BriefError
-    from genc.world.overview import tell_world
+    from genc.world.story import tell_world
     from genc.world.story import tell_agent, tell_group
     from genc.world.world_file import read_world
 

@@ -1,0 +1,105 @@
+"""Who has which slot from when to when: no two people within arm's length of each other at one time."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from genc.plan.plan import Slot
+from genc.plan.slots import Places, circle, more_spots
+from genc.plan.walkable import Walkable
+from genc.scenario.scenario import Environment
+
+ELBOW_M = 0.6
+_TRIES = 12
+"""Spots looked at before the nearest to the company is taken."""
+
+
+@dataclass
+class Seat:
+    """A slot somebody holds until `until_s`; infinite while it is not known when they will go."""
+
+    slot: Slot
+    until_s: float = math.inf
+
+
+class Seating:
+    """Hands out free slots. Calls must come in order of time."""
+
+    def __init__(
+        self, environment: Environment, places: Sequence[Places], walkable: Walkable, rng: np.random.Generator
+    ) -> None:
+        self.environment, self.places, self.walkable, self.rng = environment, places, walkable, rng
+        self._held: defaultdict[tuple[int, int], list[Seat]] = defaultdict(list)
+
+    def is_free(self, position_m: tuple[float, float], from_s: float) -> bool:
+        """Whether nobody holds a seat within arm's length at `from_s` or later."""
+        x, y = position_m
+        column, row = math.floor(x), math.floor(y)
+        for i in (column - 1, column, column + 1):
+            for j in (row - 1, row, row + 1):
+                for seat in self._held.get((i, j), ()):
+                    at_x, at_y = seat.slot.position_m
+                    if seat.until_s > from_s and math.hypot(x - at_x, y - at_y) < ELBOW_M:
+                        return False
+        return True
+
+    def hold(self, slot: Slot) -> Seat:
+        """Takes a slot until further notice."""
+        seat = Seat(slot)
+        x, y = slot.position_m
+        self._held[math.floor(x), math.floor(y)].append(seat)
+        return seat
+
+    def any_spot(self, location: int, from_s: float) -> Seat:
+        """A free spot at a location, at random."""
+        spots = self.places[location].spots
+        for i in self.rng.integers(len(spots), size=_TRIES).tolist():
+            if self.is_free(spots[i].position_m, from_s):
+                return self.hold(spots[i])
+        return self.near(location, spots[int(self.rng.integers(len(spots)))].position_m, from_s)
+
+    def near(self, location: int, position_m: tuple[float, float], from_s: float) -> Seat:
+        """The free spot of a location that is nearest to a point; new ground is found where all are taken."""
+        spots = sorted(self.places[location].spots, key=lambda spot: math.dist(spot.position_m, position_m))
+        for spot in spots:
+            if self.is_free(spot.position_m, from_s):
+                return self.hold(spot)
+        for n in (8, 64, 512):
+            for spot in more_spots(self.environment.locations[location], self.walkable, n, self.rng):
+                if self.is_free(spot.position_m, from_s):
+                    return self.hold(spot)
+        return self.hold(spot)
+
+    def around(self, location: int, n: int, from_s: float) -> list[Seat]:
+        """n seats in a talking circle at a free place of a location; side by side where there is no such room."""
+        spots = self.places[location].spots
+        place = self.environment.locations[location]
+        for i in self.rng.integers(len(spots), size=_TRIES).tolist():
+            ring = circle(place, self.walkable, spots[i].position_m, n)
+            if all(self.is_free(slot.position_m, from_s) for slot in ring) and _apart(ring):
+                return [self.hold(slot) for slot in ring]
+        return self.together(location, n, from_s)
+
+    def together(self, location: int, n: int, from_s: float) -> list[Seat]:
+        """n free spots of a location next to each other."""
+        first = self.any_spot(location, from_s)
+        return [first, *(self.near(location, first.slot.position_m, from_s) for _ in range(n - 1))]
+
+
+def towards(slot: Slot, others: Iterable[Slot]) -> Slot:
+    """The same slot, facing the middle of the others."""
+    points = [other.position_m for other in others]
+    if not points:
+        return slot
+    x = sum(p[0] for p in points) / len(points) - slot.position_m[0]
+    y = sum(p[1] for p in points) / len(points) - slot.position_m[1]
+    return slot if math.hypot(x, y) < 1e-6 else Slot(slot.position_m, math.atan2(y, x))
+
+
+def _apart(ring: Sequence[Slot]) -> bool:
+    return all(math.dist(a.position_m, b.position_m) >= ELBOW_M for i, a in enumerate(ring) for b in ring[i + 1 :])
