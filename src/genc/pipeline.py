@@ -8,7 +8,6 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from genc.errors import BriefError
 from genc.graph.crowd_graph import CrowdGraph
@@ -23,10 +22,10 @@ from genc.plan.plan import CrowdPlan
 from genc.plan.slots import places_of
 from genc.plan.walkable import Walkable
 from genc.scenario.corpus import load_corpus
+from genc.scenario.meaning import affinity, nearest_layout
 from genc.scenario.rehearse import rehearse
 from genc.scenario.scenario import Environment, Scenario
 from genc.words.brief import Brief
-from genc.words.embed import TextEncoder
 from genc.world.world import Provenance, World
 
 MOST_AGENTS = 20_000
@@ -68,7 +67,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     request = PlanRequest(
         duration_s=60 * minutes,
         captions=(text,) * len(groups),
-        affinity=np.repeat(affinity(asked, layout, generator.encoder), len(groups), axis=0),
+        affinity=np.tile(affinity(asked, layout, generator.encoder), (len(groups), 1)),
     )
     plan = plan_crowd([unfold(group) for group in groups], layout, request, for_plan)
     return play(plan, for_motion, {"text": text, "theme": theme, "seed": seed, "model": generator.hash})
@@ -105,18 +104,6 @@ def sample_groups(
 ) -> list[CrowdGraph]:
     """That many groups for one sentence, of `n_agents` people each if a number is given."""
     return generator.sample([Brief(text, n_agents)] * n_groups, rng)
-
-
-def nearest_layout(text: str, authored: tuple[Scenario, ...], encoder: TextEncoder) -> Environment:
-    """The environment of the authored scenario whose sentence is nearest in meaning to the text."""
-    vectors = encoder.encode([text, *(scenario.sentence for scenario in authored)])
-    return authored[int(np.argmax(vectors[1:] @ vectors[0]))].environment
-
-
-def affinity(text: str, layout: Environment, encoder: TextEncoder) -> NDArray[np.float64]:
-    """How near in meaning each location's name is to the text, `[1, n_locations]`, cosine."""
-    vectors = encoder.encode([text, *(location.name for location in layout.locations)])
-    return (vectors[:1] @ vectors[1:].T).astype(np.float64)
 
 
 def check_request(text: str, n_agents: int, minutes: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -39,9 +40,7 @@ def build(scripts: tuple[Path, ...], out: Path, encoder: str, seed: int) -> None
 @click.option("--batch-size", default=None, type=int, help="Groups in a batch.")
 @click.option("--seed", default=0, show_default=True)
 @click.option("--device", default="cpu", show_default=True, help="cpu or cuda.")
-def train(  # noqa: PLR0913 - one parameter for each option
-    dataset_folder: Path, out: Path, epochs: int | None, batch_size: int | None, seed: int, device: str
-) -> None:
+def train(dataset_folder: Path, out: Path, epochs: int | None, batch_size: int | None, seed: int, device: str) -> None:
     """Trains the codec generator on DATASET, and leaves the best weights in the folder.
 
     Killed at any moment, the same command goes on after the last whole epoch to the same weights.
@@ -52,11 +51,13 @@ def train(  # noqa: PLR0913 - one parameter for each option
     from genc.learn.train import TrainConfig
     from genc.model.codec import CodecConfig
 
-    wished = {"epochs": epochs, "batch_size": batch_size}
-    for name, value in wished.items():
-        if value is not None and value < 1:
-            raise BriefError(f"--{name.replace('_', '-')} {value}: must be at least 1")
-    given = {name: value for name, value in wished.items() if value is not None}
+    standard = TrainConfig()
+    n_epochs = standard.epochs if epochs is None else epochs
+    size = standard.batch_size if batch_size is None else batch_size
+    for name, value in (("--epochs", n_epochs), ("--batch-size", size)):
+        if value < 1:
+            raise BriefError(f"{name} {value}: must be at least 1")
     data = load_dataset(dataset_folder)
-    run(data, out, TrainConfig(seed=seed, **given), CodecConfig(data.manifest.dimension), device)
+    config = replace(standard, epochs=n_epochs, batch_size=size, seed=seed)
+    run(data, out, config, CodecConfig(data.manifest.dimension), device)
     click.echo(f"{out}: trained; use it with 'genc populate --model {out}'")

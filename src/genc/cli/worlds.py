@@ -71,7 +71,7 @@ def populate(  # noqa: PLR0913 - one parameter for each option
 @seed_option
 @out_option
 @json_option
-def stage(script: Path, slug: str | None, minutes: float, seed: int, out: Path, as_json: bool) -> None:  # noqa: PLR0913
+def stage(script: Path, slug: str | None, minutes: float, seed: int, out: Path, as_json: bool) -> None:
     """Plays a scenario of SCRIPT as it is written, without a model."""
     from genc.errors import ScriptError
     from genc.files import ensure_folder
@@ -93,7 +93,6 @@ def stage(script: Path, slug: str | None, minutes: float, seed: int, out: Path, 
 def story(world: Path, agent: int | None, group: int | None) -> None:
     """Tells what happens in WORLD (a world file, or the folder of one) in plain sentences with clock times."""
     from genc.errors import BriefError
-    from genc.world.story import tell_world
     from genc.world.story import tell_agent, tell_group
     from genc.world.world_file import read_world
 
@@ -105,6 +104,8 @@ def story(world: Path, agent: int | None, group: int | None) -> None:
     elif group is not None:
         lines = tell_group(found, group)
     else:
+        from genc.world.overview import tell_world
+
         lines = tell_world(found)
     click.echo("\n".join(lines))
 

@@ -25,10 +25,10 @@ class TrainConfig:
         asking: how groups are asked for, and what is left out of the asking how often.
     """
 
-    epochs: int = 80
+    epochs: int = 40
     batch_size: int = 96
     learning_rate: float = 2e-3
-    weight_decay: float = 0.02
+    weight_decay: float = 0.05
     free_nats: float = 3.0
     average: float = 0.998
     patience: int = 15

@@ -35,8 +35,8 @@ class CodecConfig:
     condition: int = 64
     encoder_depth: int = 2
     structure_depth: int = 2
-    feature_depth: int = 3
-    dropout: float = 0.15
+    feature_depth: int = 2
+    dropout: float = 0.3
     text_dropout: float = 0.5
 
 
@@ -91,7 +91,7 @@ class CodecModel(nn.Module):
     @torch.inference_mode()
     def sample(self, given: Conditions, sampling: Sampling) -> GroupBatch:
         """One group for each condition, in order; requested counts are met exactly."""
-        given = given.with_counts(self.counts.sample(given, sampling.generator))
+        given = given.with_counts(self.counts.sample(given, sampling))
         order = torch.argsort(given.counts[:, 2], descending=True, stable=True)
         parts = torch.split(order, CHUNK)
         # each chunk has its own chance, so that the result does not depend on how many run side by side
@@ -106,15 +106,16 @@ class CodecModel(nn.Module):
 
     @torch.inference_mode()
     def _sample_chunk(self, given: Conditions, sampling: Sampling) -> GroupBatch:
-        condition = self.condition(given)
-        z_structure, z_features = self.prior.sample(condition, sampling.generator).chunk(2, dim=1)
+        conditions = [self.condition(given)]
+        z_structure, z_features = self.prior.sample(conditions[0], sampling.generator).chunk(2, dim=1)
+        if sampling.guidance != 1:
+            conditions.append(self.condition(given.without_text()))
         rules = StructureRules(*given.counts.unbind(1))
-        structure = self.structure.sample(rules, torch.cat([z_structure, condition], 1), sampling)
-        steps = Steps.of(structure)
-        order = torch.argsort(steps.valid.sum(1), descending=True, stable=True)
-        context = torch.cat([z_features, condition], 1)[order]
-        ordered = Steps.of(structure[order])
-        action, category = self.features.sample(ordered, context, wanted(given)[order], sampling)
+        structure = self.structure.sample(rules, [torch.cat([z_structure, c], 1) for c in conditions], sampling)
+        order = torch.argsort(Steps.of(structure).valid.sum(1), descending=True, stable=True)
+        contexts = [torch.cat([z_features, c], 1)[order] for c in conditions]
+        steps = Steps.of(structure[order])
+        action, category = self.features.sample(steps, contexts, wanted(given)[order], sampling)
         back = torch.argsort(order)
         return GroupBatch(structure, action[back], category[back])
 

@@ -51,6 +51,10 @@ class Conditions:
         """The same with these counts."""
         return replace(self, counts=counts)
 
+    def without_text(self) -> Conditions:
+        """The same with no text."""
+        return replace(self, text=torch.zeros_like(self.text))
+
 
 class ConditionNet(nn.Module):
     """The condition vector C `[B, width]` of (text, counts, action frequencies), each of which may be missing.

@@ -8,6 +8,7 @@ from torch.nn import functional as F
 
 from genc.model.condition import ConditionNet, Conditions
 from genc.model.rules import feasible_counts
+from genc.model.sampling import Sampling, guided
 from genc.words.vocabulary import MAX_AGENTS, MAX_EVENTS, MAX_NODES
 
 
@@ -48,7 +49,7 @@ class CountPrior(nn.Module):
         ]
         return torch.stack(parts).sum(0)
 
-    def sample(self, given: Conditions, generator: torch.Generator) -> Tensor:
+    def sample(self, given: Conditions, sampling: Sampling) -> Tensor:
         """Counts `[B, 3]` that agree with whatever `given.counts` asks for."""
         counts = given.counts.clone()
         left_open = (counts == 0).any(1).nonzero()[:, 0]
@@ -59,12 +60,16 @@ class CountPrior(nn.Module):
         _, kind = torch.unique(alike, dim=0, return_inverse=True)
         for k in range(int(kind.max()) + 1):
             rows = (kind == k).nonzero()[:, 0]
-            cells = torch.multinomial(self._table(asked[rows[:1]]).flatten(), len(rows), True, generator=generator)
+            one = asked[rows[:1]]
+            told = [one] if sampling.guidance == 1 else [one, one.without_text()]
+            log_p = guided([self._log_table(each) for each in told], sampling).flatten().nan_to_num(float("-inf"))
+            p = (log_p - log_p.max()).exp()
+            cells = torch.multinomial(p, len(rows), True, generator=sampling.generator)
             counts[left_open[rows]] = torch.stack(torch.unravel_index(cells, self.feasible.shape), dim=1) + 1
         return counts
 
-    def _table(self, given: Conditions) -> Tensor:
-        """`[B, agents, events, nodes]` probabilities, zero where a requested count would be missed."""
+    def _log_table(self, given: Conditions) -> Tensor:
+        """`[B, agents, events, nodes]` log-probabilities, -inf where a requested count would be missed."""
         hidden = self._hidden(given)[:, None, :]
         after_agents = hidden + self.of_agents.weight  # (B, A, width)
         after_events = after_agents[:, :, None] + self.of_events.weight  # (B, A, E, width)
@@ -78,7 +83,7 @@ class CountPrior(nn.Module):
             asked = given.counts[:, i, None]
             fits = (asked == 0) | (torch.arange(1, size + 1, device=asked.device) == asked)
             log_p = log_p.masked_fill(~fits.view(-1, *(size if k == i else 1 for k in range(3))), float("-inf"))
-        return (log_p - log_p.flatten(1).amax(1)[:, None, None, None]).exp()
+        return log_p
 
     def _hidden(self, given: Conditions) -> Tensor:
         blank = given.with_counts(torch.zeros_like(given.counts))

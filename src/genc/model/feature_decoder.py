@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
@@ -9,7 +11,7 @@ from torch.nn import functional as F
 from genc.model.attention import Past, Stack, hide, select
 from genc.model.condition import N_ACTIONS
 from genc.model.encoder import N_CATEGORIES, RelationBias, StepEmbedding
-from genc.model.sampling import Sampling, draw
+from genc.model.sampling import Sampling, draw, guided
 from genc.model.tensors import PAD, GroupBatch, Steps
 
 
@@ -60,41 +62,60 @@ class FeatureDecoder(nn.Module):
             hidden + self.action(action), groups.category, self.to_category
         )
 
-    def sample(self, steps: Steps, context: Tensor, wanted: Tensor, sampling: Sampling) -> tuple[Tensor, Tensor]:
-        """Actions and categories `[B, T]`, padded with -1. Rows must come in order of falling length."""
+    def sample(
+        self, steps: Steps, contexts: Sequence[Tensor], wanted: Tensor, sampling: Sampling
+    ) -> tuple[Tensor, Tensor]:
+        """Actions and categories `[B, T]`, padded with -1. Rows must come in order of falling length.
+
+        `contexts` are one or two `[B, context]`, see `guided`.
+        """
         relations = steps.relations()
-        outline = self._outline(steps, relations, context)
+        outlines = [self._outline(steps, relations, context) for context in contexts]
         bias = self.relation(relations)
         length = steps.valid.sum(1)
-        action = torch.full_like(steps.turn, PAD)
-        category = torch.full_like(steps.turn, PAD)
+        action, category = torch.full_like(steps.turn, PAD), torch.full_like(steps.turn, PAD)
         used = torch.zeros_like(wanted)
-        past: list[Past] | None = None
+        pasts: list[list[Past] | None] = [None] * len(contexts)
         for t in range(action.shape[1]):
             b = int((length > t).sum())
-            left = self._left(wanted[:b], used[:b], steps.n_members[:b, t])
-            x = [outline[:b, t] + self.question + self.left(left)]
-            seen = bias[:b, :, t : t + 1, : t + 1]
-            if t > 0:  # the answer of the step before comes in with the question of this one
-                x.insert(
-                    0,
-                    outline[:b, t - 1] + self.action(action[:b, t - 1]) + self.category(category[:b, t - 1]),
+            question = self.question + self.left(self._left(wanted[:b], used[:b], steps.n_members[:b, t]))
+            # the answer of the step before comes in with the question of this one
+            answer = self.action(action[:b, t - 1]) + self.category(category[:b, t - 1]) if t > 0 else None
+            seen = self._seen(bias[:b], t)
+            asked = []
+            for i, outline in enumerate(outlines):
+                new = (
+                    [outline[:b, t] + question]
+                    if answer is None
+                    else [outline[:b, t - 1] + answer, outline[:b, t] + question]
                 )
-                answer_sees = F.pad(bias[:b, :, t - 1 : t, :t], (0, 1), value=float("-inf"))
-                seen = torch.cat([answer_sees, seen], dim=2)
-            hidden, past = self.body.extend(torch.stack(x, 1), seen, None if past is None else select(past, slice(b)))
-            # a question is asked once: later steps see answers only
-            past = [(key[:, :, :-1], value[:, :, :-1]) for key, value in past]
-            asked = hidden[:, -1]
-            action[:b, t] = draw(self.to_action(asked), sampling)
-            category[:b, t] = draw(self.to_category(asked + self.action(action[:b, t])), sampling)
+                past = pasts[i]
+                hidden, past = self.body.extend(
+                    torch.stack(new, 1), seen, None if past is None else select(past, slice(b))
+                )
+                # a question is asked once: later steps see answers only
+                pasts[i] = [(key[:, :, :-1], value[:, :, :-1]) for key, value in past]
+                asked.append(hidden[:, -1])
+            action[:b, t] = draw(guided([self.to_action(h) for h in asked], sampling), sampling)
+            done = self.action(action[:b, t])
+            category[:b, t] = draw(guided([self.to_category(h + done) for h in asked], sampling), sampling)
             used[:b] += F.one_hot(action[:b, t], N_ACTIONS) * steps.n_members[:b, t, None]
         return action, category
+
+    @staticmethod
+    def _seen(bias: Tensor, t: int) -> Tensor:
+        """The attention bias of what is new at step t (the last answer, the question) to all that is before it."""
+        question = bias[:, :, t : t + 1, : t + 1]
+        if t == 0:
+            return question
+        answer = F.pad(bias[:, :, t - 1 : t, :t], (0, 1), value=float("-inf"))
+        return torch.cat([answer, question], dim=2)
 
     def _outline(self, steps: Steps, relations: Tensor, context: Tensor) -> Tensor:
         """`[B, T, width]`: each step seen within the whole structure."""
         x = self.step(steps) + self.context(context)[:, None]
-        return x + self.outline(x, hide(steps.valid[:, None, :], self.outline_bias(relations)))
+        seen: Tensor = self.outline(x, hide(steps.valid[:, None, :], self.outline_bias(relations)))
+        return x + seen  # type: ignore[no-any-return]
 
     @staticmethod
     def _left(wanted: Tensor, used: Tensor, size: Tensor) -> Tensor:

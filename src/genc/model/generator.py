@@ -26,7 +26,7 @@ class CodecGenerator:
         model: in evaluation mode.
         encoder: the text encoder that it was trained with.
         hash: sixteen hex digits of its weights.
-        temperature, top_p: see `Sampling`; 1 and 1 draw from the learned distribution.
+        temperature, top_p, guidance: see `Sampling`; 1, 1 and 1 draw from the learned distribution.
     """
 
     model: CodecModel
@@ -34,6 +34,7 @@ class CodecGenerator:
     hash: str
     temperature: float = 1.0
     top_p: float = 1.0
+    guidance: float = 1.0
 
     def sample(self, briefs: Sequence[Brief], rng: np.random.Generator) -> list[CrowdGraph]:
         """One group for each brief, in order; requested counts are met exactly, frequencies nearly."""
@@ -42,7 +43,7 @@ class CodecGenerator:
     def sample_batch(self, given: Conditions, rng: np.random.Generator) -> GroupBatch:
         """The same as arrays, for conditions that are embedded already."""
         generator = torch.Generator().manual_seed(int(rng.integers(2**62)))
-        return self.model.sample(given, Sampling(generator, self.temperature, self.top_p))
+        return self.model.sample(given, Sampling(generator, self.temperature, self.top_p, self.guidance))
 
     def conditions(self, briefs: Sequence[Brief]) -> Conditions:
         """The briefs as tensors; each distinct text is embedded once."""

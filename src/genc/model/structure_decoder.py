@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
@@ -9,7 +11,7 @@ from torch.nn import functional as F
 from genc.graph.codec import N_STRUCTURE_TOKENS
 from genc.model.attention import Past, Stack, hide, select
 from genc.model.rules import N_FEATURES, StructureRules
-from genc.model.sampling import Sampling, draw
+from genc.model.sampling import Sampling, draw, guided
 from genc.model.tensors import PAD
 from genc.words.vocabulary import MAX_EVENTS
 
@@ -41,32 +43,31 @@ class StructureDecoder(nn.Module):
         loss = F.cross_entropy(logits.transpose(1, 2), structure, ignore_index=PAD, reduction="none")
         return -loss.sum(1)
 
-    def sample(self, rules: StructureRules, context: Tensor, sampling: Sampling) -> Tensor:
-        """Tokens `[B, L]`, padded with -1, that use up exactly the counts that `rules` starts from."""
-        rows = torch.arange(len(context), device=context.device)
-        total_events = rules.events.clone()
+    def sample(self, rules: StructureRules, contexts: Sequence[Tensor], sampling: Sampling) -> Tensor:
+        """Tokens `[B, L]`, padded with -1, that use up exactly the counts that `rules` starts from.
+
+        `contexts` are one or two `[B, context]`, see `guided`.
+        """
+        rows = torch.arange(len(contexts[0]), device=contexts[0].device)
+        n_rows, n_events = len(rows), rules.events
         token = torch.full_like(rows, self.start)
-        past: list[Past] | None = None
+        pasts: list[list[Past] | None] = [None] * len(contexts)
         columns: list[Tensor] = []
         while len(rows):
-            x = self._embed(token, total_events - rules.events, rules.features(), context)[:, None]
-            hidden, past = self.body.extend(x, None, past)
-            token = draw(self.out(hidden[:, 0]).masked_fill(~rules.mask(), float("-inf")), sampling)
-            column = rows.new_full((len(columns[0]) if columns else len(rows),), PAD)
-            column[rows] = token
-            columns.append(column)
+            logits = []
+            for i, context in enumerate(contexts):
+                x = self._embed(token, n_events - rules.events, rules.features(), context)[:, None]
+                hidden, pasts[i] = self.body.extend(x, None, pasts[i])
+                logits.append(self.out(hidden[:, 0]))
+            token = draw(guided(logits, sampling).masked_fill(~rules.mask(), float("-inf")), sampling)
+            columns.append(rows.new_full((n_rows,), PAD).index_copy(0, rows, token))
             rules.advance(token)
-            going = ~rules.finished
-            if not going.all():
-                keep = going.nonzero()[:, 0]
+            keep = (~rules.finished).nonzero()[:, 0]
+            if len(keep) < len(rows):
                 rules.select(keep)
-                rows, token, context, total_events = (
-                    rows[keep],
-                    token[keep],
-                    context[keep],
-                    total_events[keep],
-                )
-                past = select(past, keep)
+                rows, token, n_events = rows[keep], token[keep], n_events[keep]
+                contexts = [context[keep] for context in contexts]
+                pasts = [None if past is None else select(past, keep) for past in pasts]
         return torch.stack(columns, dim=1)
 
     def _embed(self, before: Tensor, event: Tensor, features: Tensor, context: Tensor) -> Tensor:

@@ -13,7 +13,6 @@ from collections.abc import Generator
 from dataclasses import dataclass, field
 from itertools import count
 
-
 _INSTANT_S = 1e-9
 """Times that close are one: a moment computed by adding must not miss its step by a rounding error."""
 
@@ -86,8 +85,12 @@ class Clock:
             while self._ready:
                 self._resume(*self._ready.popleft())
 
+    def is_past(self, time_s: float) -> bool:
+        """Whether a moment has come."""
+        return time_s <= self.now_s + _INSTANT_S
+
     def _due(self) -> bool:
-        return bool(self._alarms) and self._alarms[0][0] <= self.now_s + _INSTANT_S
+        return bool(self._alarms) and self.is_past(self._alarms[0][0])
 
     def _resume(self, life: Life, happened: bool) -> None:
         try:

@@ -8,9 +8,8 @@ waits in sight; who is late is waited for, up to a limit.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,17 +17,14 @@ from genc.motion.clock import Clock, Errand, Life, Wait
 from genc.motion.line import Line, Party
 from genc.motion.motion import Motion, Status
 from genc.motion.occasion import Occasion, Row, occasions
-from genc.motion.spots import Spots
-from genc.motion.staff import behind, workplaces
+from genc.motion.spots import Spots, crowd_behind
 from genc.motion.stage import Stage
 from genc.motion.steering import Steering
-from genc.motion.stroll import PACE, Strolls
+from genc.motion.stroll import LONGEST_PAUSE_S, PACE, Strolls
 from genc.plan.plan import Activity, CrowdPlan, Person, Slot
+from genc.plan.slots import Places
+from genc.plan.walkable import Walkable, is_solid
 from genc.words.vocabulary import Action, Category
-
-if TYPE_CHECKING:
-    from genc.plan.slots import Places
-    from genc.plan.walkable import Walkable
 
 _SLOWEST = 4.0
 _LOST_S = 60.0
@@ -46,10 +42,13 @@ class Options:
     Attributes:
         patience_s: how long a late partner is waited for, counted from the planned beginning or from one's own
             arrival, whichever is later.
+        patience_in_line_s: how much longer than planned one stands in a line at which one wants no service. Who
+            wants to be served stays.
         n_steps_a_frame: steps of the steering for each stored frame.
     """
 
     patience_s: float = 180.0
+    patience_in_line_s: float = 120.0
     n_steps_a_frame: int = 2
 
 
@@ -87,26 +86,23 @@ class _Play:
         rng: np.random.Generator,
     ) -> None:
         self.plan = plan
-        self.patience_s = options.patience_s
+        self.options = options
         self.clock = Clock()
         n_frames = 1 + int(plan.duration_s / (steering.dt_s * options.n_steps_a_frame) + 1e-6)
         self.stage = Stage(steering, self.clock, n_frames, options.n_steps_a_frame)
         kept_free = [slot for place in places for slot in place.service]
         self.spots = Spots(len(plan.people), walkable, kept_free)
         self.strolls = Strolls(plan.environment, walkable, rng)
-        self.lines = [Line(place.line, place.service, self.stage.send, self.clock.fire) for place in places]
+        self.lines = [
+            Line((*place.line, *crowd_behind(place.line, walkable)), place.service, self.stage.send, self.clock.fire)
+            for place in places
+        ]
         self.service = [{slot.position_m for slot in place.service} for place in places]
         self.solid = [
-            place.category is Category.BUILDING and not walkable.free(np.array([place.position_m]))[0]
-            for place in plan.environment.locations
+            solid and place.category is Category.BUILDING
+            for place, solid in zip(plan.environment.locations, is_solid(plan.environment), strict=True)
         ]
         self.occasions = occasions(plan)
-        self.workplace = workplaces(plan)
-        self.behind = {
-            place: behind(plan.environment.locations[place], places[place].service[0], walkable)
-            for place in self.workplace
-            if place is not None and places[place].service
-        }
         self.rows: list[Row] = []
         self.inside: dict[int, int] = {}
 
@@ -138,15 +134,12 @@ class _Play:
             row.position_m, row.facing_rad = self.stage.position_m(agent), self.stage.facing_rad(agent)
             yield Wait(occasion.over)
             row.end_s = self.clock.now_s
-            row.status = Status.DONE if arrived and not occasion.incomplete else Status.TIMEOUT
+            row.status = Status.DONE if arrived and not occasion.timed_out else Status.TIMEOUT
         self._end(agent, person)
 
     def _come(self, agent: int, person: Person) -> None:
         first = person.activities[0]
-        if self._lines_up(agent, 0):
-            slot = self.lines[first.location].tail()
-        else:
-            slot = self.spots.take(agent, self._slot(agent, first))
+        slot = self.lines[first.location].tail() if self._lines_up(agent, 0) else self.spots.take(agent, first.slot)
         self.stage.appear(agent, slot, person.speed_mps)
 
     def _go(self, agent: int, step: int, activity: Activity) -> Errand:
@@ -161,11 +154,10 @@ class _Play:
         together = self.occasions[activity.occasion].steps
         if self._lines_up(agent, step) and not any(other in line.served for other in together):
             return (yield from self._walk(agent, line.tail()))
-        slot = self._slot(agent, activity)
-        arrived = yield from self._walk(agent, slot)
+        arrived = yield from self._walk(agent, activity.slot)
         if activity.action in _PASSING:
             return arrived
-        return (yield from self._walk(agent, self.spots.take(agent, slot))) and arrived
+        return (yield from self._walk(agent, self.spots.take(agent, activity.slot))) and arrived
 
     def _walk(self, agent: int, slot: Slot) -> Errand:
         """Walks to a slot; False if it takes so long that the way must be lost. Then one stays where one is."""
@@ -189,10 +181,10 @@ class _Play:
                 self.clock.fire(occasion.gathered)
             elif self._lines_up(agent, occasion.steps[agent]):
                 self.lines[occasion.activity.location].gather(agent)
-            limit_s = max(self.clock.now_s, occasion.activity.start_s) + self.patience_s
+            limit_s = max(self.clock.now_s, occasion.activity.start_s) + self.options.patience_s
             yield Wait(occasion.gathered, limit_s)
             if not occasion.gathered.happened:
-                occasion.incomplete = True
+                occasion.timed_out = True
                 self.clock.fire(occasion.gathered)
         yield Wait(occasion.begun)
 
@@ -227,25 +219,29 @@ class _Play:
     def _queue(self, occasion: Occasion) -> Life:
         """Stands in line until it is their turn."""
         agents, line = tuple(occasion.here), self.lines[occasion.activity.location]
-        customers = tuple(agent for agent in agents if self._next_is_service(agent, occasion))
-        party = Party(agents, customers)
+        following = {agent: occasion.steps[agent] + 1 for agent in agents if self._next_is_service(agent, occasion)}
+        party = Party(agents, self._wishes(following))
         line.join(party)
         yield Wait(until_s=occasion.activity.start_s)
         self._begin(occasion)
-        start_s = self.clock.now_s
+        until_s = self.clock.now_s + occasion.duration_s
         line.let(party)
-        yield Wait(party.turn)
-        if not customers:
-            yield Wait(self.stage.arrival(agents[0]))
-            yield Wait(until_s=start_s + occasion.duration_s)
-            line.leave(party)
+        if party.customers:
+            yield Wait(party.turn)
+            return
+        limit_s = until_s + self.options.patience_in_line_s
+        yield Wait(party.turn, limit_s)
+        yield Wait(self.stage.arrival(agents[0]), limit_s)
+        yield Wait(until_s=until_s)
+        occasion.timed_out |= not party.turn.happened
+        line.leave(party)
 
     def _serve(self, occasion: Occasion) -> Life:
         """Waits for a service slot, if nobody has one yet, is served, and makes room for the next."""
         agents, line = tuple(occasion.here), self.lines[occasion.activity.location]
         if not any(agent in line.served for agent in agents):
-            customers = tuple(agent for agent in agents if self._lines_up(agent, occasion.steps[agent]))
-            party = Party(agents, customers)
+            served = {agent: occasion.steps[agent] for agent in agents if self._lines_up(agent, occasion.steps[agent])}
+            party = Party(agents, self._wishes(served))
             line.join(party)
             yield Wait(until_s=occasion.activity.start_s)
             line.let(party)
@@ -268,15 +264,20 @@ class _Play:
             yield Wait(arrival, self.clock.now_s + _LOST_S)
 
     def _stroll(self, occasion: Occasion) -> Life:
-        """Wanders from point to point, together, until the time is over."""
+        """Wanders from point to point, together, and is at the planned slot when the time is over."""
         agents, end_s = tuple(occasion.here), self.clock.now_s + occasion.duration_s
-        while self.clock.now_s < end_s:
+        home = [self.plan.people[agent].activities[occasion.steps[agent]].slot for agent in agents]
+        pace_mps = PACE * self.plan.people[agents[0]].speed_mps
+        while not self.clock.is_past(end_s):
             here_m = [self.stage.position_m(agent) for agent in agents]
             goals = self.strolls.next(occasion.activity.location, here_m)
-            arrivals = [self.stage.send(agent, goal, PACE) for agent, goal in zip(agents, goals, strict=True)]
-            for arrival in arrivals:
+            goal_m = goals[0].position_m
+            there_and_home_s = (math.dist(here_m[0], goal_m) + math.dist(goal_m, home[0].position_m)) / pace_mps
+            is_last = self.clock.is_past(end_s - there_and_home_s - LONGEST_PAUSE_S)
+            turns = zip(agents, home if is_last else goals, strict=True)
+            for arrival in [self.stage.send(agent, goal, PACE) for agent, goal in turns]:
                 yield Wait(arrival, end_s)
-            yield Wait(until_s=min(end_s, self.clock.now_s + self.strolls.pause_s()))
+            yield Wait(until_s=end_s if is_last else self.clock.now_s + self.strolls.pause_s())
         for agent in agents:
             self.stage.stop(agent)
 
@@ -312,20 +313,12 @@ class _Play:
 
     # What the plan says about services.
 
-    def _slot(self, agent: int, activity: Activity) -> Slot:
-        """Where one does it: as planned, but staff stand behind the counter."""
-        at_work = activity.location == self.workplace[agent]
-        if at_work and activity.slot.position_m in self.service[activity.location]:
-            return self.behind[activity.location]
-        return activity.slot
-
     def _lines_up(self, agent: int, step: int) -> bool:
         """Whether one stands in line for this, or would if the service were busy."""
         activity = self.plan.people[agent].activities[step]
         if activity.action is Action.QUEUE:
             return True
-        served = activity.slot.position_m in self.service[activity.location]
-        return served and activity.action not in _PASSING and activity.location != self.workplace[agent]
+        return activity.action not in _PASSING and activity.slot.position_m in self.service[activity.location]
 
     def _next_is_service(self, agent: int, occasion: Occasion) -> bool:
         """Whether the next thing that an agent of this occasion does is to be served here, with nobody else."""
@@ -337,6 +330,10 @@ class _Play:
             return False
         following = self.occasions[activities[step].occasion].steps
         return all(other in occasion.here and occasion.steps[other] + 1 == k for other, k in following.items())
+
+    def _wishes(self, steps: Mapping[int, int]) -> dict[int, Slot]:
+        """The service slot that the plan has in mind for each of these activities."""
+        return {agent: self.plan.people[agent].activities[step].slot for agent, step in steps.items()}
 
     def _stays_served(self, agent: int, occasion: Occasion) -> bool:
         if not self._next_is_service(agent, occasion):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from genc.motion.clock import Signal
@@ -15,14 +15,15 @@ class Party:
 
     Attributes:
         members: all of them, in the order in which they stand.
-        customers: those who take a service slot when it is their turn; nobody, if the line itself is the goal.
+        customers: those who take a service slot when it is their turn, each with the slot that the plan has in mind;
+            nobody, if the line itself is the goal.
         ready: False while the plan does not let them be served yet; they let others pass.
         turn: it is their turn. Customers have their service slot then and the party has left the line; a party
             without customers is at the head and leaves by itself.
     """
 
     members: tuple[int, ...]
-    customers: tuple[int, ...] = ()
+    customers: Mapping[int, Slot] = field(default_factory=dict)
     ready: bool = False
     turn: Signal = field(default_factory=Signal)
 
@@ -106,10 +107,12 @@ class Line:
         if party is None or party.turn.happened:
             return
         if party.customers:
-            customers = party.customers[: self._capacity]
+            customers = list(party.customers)[: self._capacity]
             if len(self._free) < len(customers):
                 return
-            self.served.update((customer, self._free.pop(0)) for customer in customers)
+            for customer in customers:
+                wished = party.customers[customer]
+                self.served[customer] = self._free.pop(self._free.index(wished) if wished in self._free else 0)
         self._fire(party.turn)
         if party.customers:
             self.leave(party)

@@ -20,7 +20,7 @@ class Occasion:
         here: who has arrived in time, in order of arrival.
         gathered: all are here, or those who are here wait no longer.
         begun, over: it has begun, it has ended.
-        incomplete: it began without somebody.
+        timed_out: somebody did not come in time, or the turn did not.
     """
 
     steps: dict[int, int]
@@ -29,7 +29,7 @@ class Occasion:
     gathered: Signal = field(default_factory=Signal)
     begun: Signal = field(default_factory=Signal)
     over: Signal = field(default_factory=Signal)
-    incomplete: bool = False
+    timed_out: bool = False
 
     @property
     def duration_s(self) -> float:

@@ -14,6 +14,8 @@ _ELBOW_M = 0.5
 """Least distance between two people who stand."""
 _RINGS_M = (0.6, 0.9, 1.3, 1.8, 2.5, 3.5, 5.0)
 _N_DIRECTIONS = 12
+_CROWD_SPACING_M = 0.75
+_CROWD_REACH = 8
 
 
 class Spots:
@@ -59,3 +61,15 @@ class Spots:
         near_m = self._taken_m[((self._taken_m > low_m) & (self._taken_m < high_m)).all(axis=1)]
         apart_m = np.linalg.norm(points_m[:, None] - near_m, axis=2)
         return np.asarray((apart_m < _ELBOW_M).any(axis=1))
+
+
+def crowd_behind(line: Sequence[Slot], walkable: Walkable) -> list[Slot]:
+    """Where people stand who come to a line that has no room left: around its end, nearest first."""
+    end = line[-1]
+    offsets = np.indices((2 * _CROWD_REACH + 1,) * 2).reshape(2, -1).T - _CROWD_REACH
+    points_m = np.array(end.position_m) + _CROWD_SPACING_M * offsets
+    line_m = np.array([slot.position_m for slot in line])
+    apart_m = np.linalg.norm(points_m[:, None] - line_m, axis=2).min(axis=1)
+    points_m = points_m[walkable.free(points_m) & (apart_m > _ELBOW_M)]
+    order = np.argsort(np.linalg.norm(points_m - end.position_m, axis=1), kind="stable")
+    return [Slot((x_m, y_m), end.facing_rad) for x_m, y_m in points_m[order].tolist()]

@@ -99,7 +99,9 @@ class Stage:
         first = self._present.argmax(axis=0)
         before = np.arange(len(self._present))[:, None] < first
         # Who has not come yet is where they will come in.
-        self._positions_m = np.where(before[..., None], self._positions_m[first, np.arange(len(first))], self._positions_m)
+        self._positions_m = np.where(
+            before[..., None], self._positions_m[first, np.arange(len(first))], self._positions_m
+        )
         headings_rad = (self._headings_rad + np.pi) % (2 * np.pi) - np.pi
         dt_s = round(self.steering.dt_s * self._n_steps_a_frame, 6)
         return Motion(dt_s, self._positions_m, headings_rad, self._present, executed)

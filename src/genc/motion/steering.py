@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from numpy.typing import NDArray
-
 import numpy as np
+from numpy.typing import NDArray
 
 
 class Steering(Protocol):
@@ -22,17 +21,10 @@ class Steering(Protocol):
         walking: bool `[a]`, who is on the way to a target; read only.
     """
 
-    @property
-    def dt_s(self) -> float: ...
-
-    @property
-    def positions_m(self) -> NDArray[np.float64]: ...
-
-    @property
-    def headings_rad(self) -> NDArray[np.float64]: ...
-
-    @property
-    def walking(self) -> NDArray[np.bool_]: ...
+    dt_s: float
+    positions_m: NDArray[np.float64]
+    headings_rad: NDArray[np.float64]
+    walking: NDArray[np.bool_]
 
     def add(self, agent: int, position_m: tuple[float, float], speed_mps: float) -> None:
         """Lets an absent agent stand at a point of free ground; it will walk at that speed."""

@@ -14,6 +14,7 @@ from genc.scenario.scenario import Environment, Location
 PACE = 0.6
 """Share of one's walking speed at which one strolls."""
 
+LONGEST_PAUSE_S = 4.0
 _N_TRIES = 8
 _AROUND_M = 1.5
 """How far from a thing that one cannot walk through (a table, a statue) one walks around it."""
@@ -50,14 +51,14 @@ class Strolls:
 
     def pause_s(self) -> float:
         """How long they look around before they go on."""
-        return float(self._rng.uniform(1.0, 4.0))
+        return float(self._rng.uniform(1.0, LONGEST_PAUSE_S))
 
     def _straight(self, here_m: Floats, tries_m: Floats) -> Floats:
         """The first of these points to which a straight way leads; where one is, if there is none."""
         fit_m = tries_m[self._walkable.free(tries_m)]
         for path_m in self._walkable.paths(np.broadcast_to(here_m, fit_m.shape), fit_m):
             if len(path_m) == 2:
-                return path_m[1]
+                return np.asarray(path_m[1])
         return here_m
 
 

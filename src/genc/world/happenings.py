@@ -8,7 +8,10 @@ from dataclasses import dataclass
 
 from genc.motion.motion import Executed, Status
 from genc.plan.plan import Activity
+from genc.words.vocabulary import Category
 from genc.world.world import World
+
+_AT_ONCE_S = 1.0
 
 
 @dataclass(frozen=True)
@@ -19,14 +22,16 @@ class Happening:
         activity: what was planned, as of the first of them.
         step: which of the first person's activities it is.
         done: one entry for each of them, ascending by agent.
-        stay: where in a stay it comes; see `phrases.passing`.
+        way: if it is a coming or going, which; see `phrases.passing`.
+        within: whether the first of them was in the place, as opposed to beside it.
         expected: the partners who came last, so that the others had to wait for them.
     """
 
     activity: Activity
     step: int
     done: tuple[Executed, ...]
-    stay: str
+    way: str
+    within: bool
     expected: tuple[int, ...]
 
     @property
@@ -81,11 +86,9 @@ def happenings(world: World, agents: Sequence[int]) -> list[Happening]:
         first = rows[0]
         activity = people[first.agent].activities[first.step]
         expected = _last_to_come(arrivals_s[occasion], first.start_s)
-        found.append(Happening(activity, first.step, tuple(rows), _stay(world, first), expected))
+        way, within = _way(world, first), _is_within(world, first)
+        found.append(Happening(activity, first.step, tuple(rows), way, within, expected))
     return sorted(found, key=lambda happening: (happening.time_s, happening.done[0].leave_s, happening.agents))
-
-
-_AT_ONCE_S = 1.0
 
 
 def _last_to_come(arrivals_s: dict[int, float], start_s: float) -> tuple[int, ...]:
@@ -93,11 +96,28 @@ def _last_to_come(arrivals_s: dict[int, float], start_s: float) -> tuple[int, ..
     return tuple(agent for agent, arrive_s in arrivals_s.items() if 0 <= start_s - arrive_s <= _AT_ONCE_S)
 
 
-def _stay(world: World, done: Executed) -> str:
+def _way(world: World, done: Executed) -> str:
     person = world.plan.people[done.agent]
+    here = [activity.location for activity in person.activities]
+    at_entrance = world.plan.environment.locations[here[done.step]].category is Category.ENTRANCE
+    if _is_hidden(world, done):
+        return "in"
     if done.step == 0:
-        return "first"
-    if done.step == len(person.activities) - 1 and person.leaves:
+        return "first" if at_entrance or here[:2] != here[:1] * 2 else "in"
+    if done.step == len(here) - 1 and person.leaves:
         return "last"
-    here = person.activities[done.step].location
-    return "again" if person.activities[done.step - 1].location == here else "between"
+    return "out" if here[done.step - 1] == here[done.step] else "through"
+
+
+def _is_within(world: World, done: Executed) -> bool:
+    location = world.plan.environment.locations[world.plan.people[done.agent].activities[done.step].location]
+    sides = zip(done.position_m, location.position_m, location.size_m, strict=True)
+    return _is_hidden(world, done) or all(abs(at_m - centre_m) <= size_m / 2 for at_m, centre_m, size_m in sides)
+
+
+def _is_hidden(world: World, done: Executed) -> bool:
+    """Whether somebody is out of sight, in a building, when a doing begins."""
+    if math.isnan(done.start_s):
+        return False
+    frame = min(math.ceil(done.start_s / world.motion.dt_s - 1e-6), len(world.motion.present) - 1)
+    return not world.motion.present[frame, done.agent]

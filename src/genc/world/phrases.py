@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from genc.scenario.scenario import Location
 from genc.words.vocabulary import Action, Category
 
-_INSIDE = {Category.ROOM, Category.BUILDING}
+_ENCLOSED = {Category.ROOM, Category.BUILDING}
 _GROUND = {Category.ROOM, Category.BUILDING, Category.OUTDOOR_AREA}
-"""Places that one is in, as opposed to things that one stands before."""
+"""Places that one can be in, as opposed to things that one stands before."""
 
 _GENERAL: dict[Action, str] = {
     Action.WAIT: "wait {at}",
@@ -23,12 +24,12 @@ _GENERAL: dict[Action, str] = {
     Action.LOOK_AT: "look at {the}",
     Action.CARRY: "carry something to {the}",
 }
-_ON_GROUND: dict[Action, str] = {
+_WITHIN: dict[Action, str] = {
     Action.WANDER: "wander about {the}",
-    Action.OBJECT_INTERACT: "be busy {at}",
     Action.LOOK_AT: "look around {at}",
     Action.CARRY: "carry something about {the}",
 }
+"""What is said otherwise of those who are in the place."""
 _READABLE = {Category.ITEM, Category.ENTRANCE, Category.EXHIBIT}
 
 # What two or more do with each other, and what is said of somebody whose partner is not in the cast.
@@ -37,15 +38,46 @@ _SOCIAL: dict[Action, tuple[str, str]] = {
     Action.DISCUSS: ("talk with {whom} {at}", "talk to somebody {at}"),
     Action.MEET: ("meet {whom} {at}", "meet somebody {at}"),
 }
-_IRREGULAR = {"be": "is", "go": "goes", "carry": "carries"}
+_IRREGULAR = {"be": "is", "do": "does", "go": "goes", "carry": "carries"}
 
 
-def doing(action: Action, place: Location, whom: str = "") -> str:
+@dataclass(frozen=True)
+class Setting:
+    """Where somebody does something.
+
+    Attributes:
+        place: the location.
+        within: whether one is inside its footprint, as opposed to beside it.
+        named: whether the sentence has just named it, so that "it" and "there" will do.
+    """
+
+    place: Location
+    within: bool
+    named: bool = False
+
+    @property
+    def the(self) -> str:
+        """The name with its article, where it takes one: "the pizza van", "platform 2"."""
+        return "it" if self.named else with_article(self.place.name)
+
+    @property
+    def at(self) -> str:
+        """ "at the pizza van", "in the waiting room"."""
+        if self.named:
+            return "there"
+        inside = self.within and self.place.category in _ENCLOSED
+        return f"{'in' if inside else 'at'} {self.the}"
+
+
+def doing(action: Action, setting: Setting, whom: str = "") -> str:
     """A verb phrase in the base form, such as "wait at the pizza van" or "talk with Person 3 in the hall".
 
     `whom` are the partners, as `names` or "each other"; empty for somebody alone.
     """
-    return _template(action, place.category, bool(whom)).format(at=at(place), the=the(place), whom=whom)
+    template = _template(action, setting, bool(whom))
+    if setting.named:
+        template = template.removesuffix(" {at}").removesuffix(" to {the}").removesuffix(" about {the}")
+    return template.format(whom=whom, the=setting.the, at=setting.at)
 
 
 def is_social(action: Action) -> bool:
@@ -53,24 +85,22 @@ def is_social(action: Action) -> bool:
     return action in _SOCIAL
 
 
-def passing(place: Location, stay: str) -> str:
-    """A phrase for coming or going: `stay` is "first" in a life, "last", "again" (from within) or "between"."""
+def passing(place: Location, way: str) -> str:
+    """A phrase for coming or going; `way` is "first" or "last" of a life, "in" or "out", or "through"."""
     if place.category is Category.ENTRANCE:
-        template = {"first": "come in by {the}", "last": "leave by {the}"}.get(stay, "go through {the}")
-    elif stay == "first":
-        template = "come out of {the}"
+        template = {"first": "come in by {the}", "last": "leave by {the}"}.get(way, "go through {the}")
     else:
-        template = "leave {the}" if stay == "again" else "go into {the}"
-    return template.format(the=the(place))
+        template = {"first": "come out of {the}", "out": "leave {the}"}.get(way, "go into {the}")
+    return template.format(the=with_article(place.name))
 
 
 def said_of(phrase: str, plural: bool) -> str:
     """A base-form phrase as said of one ("waits at ...") or of several ("wait at ...", "are busy ...")."""
     verb, space, rest = phrase.partition(" ")
-    if plural:
-        verb = "are" if verb == "be" else verb
-    else:
+    if not plural:
         verb = _IRREGULAR.get(verb, verb + "s")
+    elif verb == "be":
+        verb = "are"
     return verb + space + rest
 
 
@@ -84,17 +114,11 @@ def names(agents: Sequence[int], most: int = 4) -> str:
     return f"Persons {', '.join(head)} and {tail}"
 
 
-def the(place: Location) -> str:
-    """The name with its article, where it takes one: "the pizza van", "platform 2"."""
-    name = place.name
+def with_article(name: str) -> str:
+    """ "the pizza van", but "platform 2" and "Hall B"."""
     last = name.split()[-1]
     proper = name[:1].isupper() or any(c.isdigit() for c in last) or (len(last) == 1 and " " in name)
     return name if proper or name.startswith(("the ", "a ", "an ")) else f"the {name}"
-
-
-def at(place: Location) -> str:
-    """ "at the pizza van", "in the waiting room"."""
-    return f"{'in' if place.category in _INSIDE else 'at'} {the(place)}"
 
 
 def clock(time_s: float) -> str:
@@ -108,11 +132,14 @@ def span(length_s: float) -> str:
     return f"{seconds} s" if seconds < 60 else f"{seconds // 60}:{seconds % 60:02d} min"
 
 
-def _template(action: Action, category: Category, accompanied: bool) -> str:
+def _template(action: Action, setting: Setting, accompanied: bool) -> str:
+    category = setting.place.category
     if action in _SOCIAL:
         if action is Action.DISCUSS and category is Category.SERVICE_AREA and not accompanied:
             return "talk with the staff {at}"
         return _SOCIAL[action][0 if accompanied else 1]
     if action is Action.READ and category in _READABLE:
         return "read {the}"
-    return (_ON_GROUND if category in _GROUND else {}).get(action, _GENERAL[action])
+    if action is Action.OBJECT_INTERACT and category in _GROUND:
+        return "be busy with something {at}"
+    return (_WITHIN if setting.within and category in _GROUND else {}).get(action, _GENERAL[action])

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from itertools import groupby
 
 from genc.errors import BriefError
-from genc.scenario.scenario import Location
 from genc.words.vocabulary import Action
+from genc.world.census import tell_minutes, tell_people, tell_places, tell_status
 from genc.world.happenings import Happening, happenings
-from genc.world.phrases import at, clock, doing, is_social, names, passing, said_of, span, the
+from genc.world.phrases import Setting, clock, doing, is_social, names, passing, said_of, span
 from genc.world.world import World
 
+_N_EXAMPLES = 2
 _WORTH_TELLING_S = 8.0
 """Shorter waits are not told, and shorter doings are told without their length."""
 
@@ -43,11 +45,42 @@ def tell_group(world: World, group: int) -> list[str]:
     members = [agent for agent, person in enumerate(people) if person.group == group]
     caption = world.plan.captions[group] if group < len(world.plan.captions) else ""
     lines = [f"Group {group}, {names(members, most=15)}" + (f": {caption}" if caption else "")]
-    for happening in happenings(world, members):
+    for happening in sorted(happenings(world, members), key=_told_s):
         agents = happening.agents
         told = _clause(world, happening, agents, opening=True)
         lines.append(f"{clock(_told_s(happening))} {names(agents, most=15)} {told}.")
-    return lines
+    absent = set(members) - {done.agent for done in world.motion.executed}
+    return lines + [_absence(agent) for agent in sorted(absent)]
+
+
+def tell_world(world: World) -> list[str]:
+    """What the world is, how it was made, what goes on in it minute by minute, and the stories of two groups."""
+    text = world.provenance.get("text")
+    examples = _examples(world)
+    return [
+        *([str(text)] if text else []),
+        tell_people(world),
+        *world.plan.notes,
+        *_section("Minute by minute", tell_minutes(world)),
+        *_section("Places, the busiest first", tell_places(world)),
+        *_section("Some of the groups", [line for group in examples for line in tell_group(world, group)]),
+        "",
+        tell_status(world),
+    ]
+
+
+def _section(title: str, lines: Sequence[str]) -> list[str]:
+    return ["", f"{title}:", *lines] if lines else []
+
+
+def _examples(world: World) -> list[int]:
+    """Groups whose stories are worth reading first: those whose people did most together, in order of number."""
+    together: Counter[int] = Counter()
+    for done in world.motion.executed:
+        person = world.plan.people[done.agent]
+        together[person.group] += bool(person.activities[done.step].partners)
+    most = sorted(together, key=lambda group: (-together[group], group))[:_N_EXAMPLES]
+    return sorted(most)
 
 
 def _chapters(told: Sequence[Happening]) -> list[list[Happening]]:
@@ -70,27 +103,26 @@ def _clause(world: World, happening: Happening, subject: Sequence[int], opening:
     """What happened, said of `subject`; an `opening` names the place."""
     activity = happening.activity
     place = world.plan.environment.locations[activity.location]
+    setting = Setting(place, happening.within, named=not opening)
     plural = len(subject) > 1
     if math.isnan(happening.start_s):
-        return _unbegun(happening, place, plural)
+        return _unbegun(happening, setting, plural)
     others = [agent for agent in activity.partners if agent not in subject]
     whom = names(others) if others else "each other" if plural else ""
     if activity.action is Action.ENTER_EXIT:
-        phrase = passing(place, happening.stay)
+        phrase = passing(place, happening.way)
     else:
-        phrase = doing(activity.action, place, whom)
-    if not opening:
-        phrase = phrase.replace(f" {at(place)}", "")
+        phrase = doing(activity.action, setting, whom)
     text = said_of(phrase, plural)
-    if others and not is_social(activity.action):
+    if opening and others and not is_social(activity.action):
         text += f" with {names(others)}"
-    return _before(happening, place, plural, others) + text + _length(happening) + _after(happening)
+    return _before(happening, setting, plural, others) + text + _length(happening) + _after(happening)
 
 
-def _unbegun(happening: Happening, place: Location, plural: bool) -> str:
+def _unbegun(happening: Happening, setting: Setting, plural: bool) -> str:
     if math.isnan(happening.arrive_s):
-        return said_of(f"be on the way to {the(place)} when the world ends", plural)
-    return said_of(f"wait {at(place)} until the world ends", plural)
+        return said_of(f"be on the way to {setting.the} when the world ends", plural)
+    return said_of(f"wait {setting.at} until the world ends", plural)
 
 
 def _wait(happening: Happening) -> str:
@@ -101,16 +133,16 @@ def _wait(happening: Happening) -> str:
     return "all" if all(waits) else "some" if any(waits) else ""
 
 
-def _before(happening: Happening, place: Location, plural: bool, others: Sequence[int]) -> str:
+def _before(happening: Happening, setting: Setting, plural: bool, others: Sequence[int]) -> str:
     """What is to be said of the time between coming and beginning."""
     if _wait(happening) != "all":
         return ""
-    waited = f"wait {at(place)} for {span(happening.start_s - happening.arrive_s)}"
+    waited = f"wait {setting.at} for {span(happening.start_s - happening.arrive_s)}"
     expected = [agent for agent in happening.expected if agent in others]
     if happening.in_vain and others:
         waited = f"{waited} in vain for {names(others)}"
     elif expected:
-        waited = f"wait {at(place)} for {names(expected)} ({span(happening.start_s - happening.arrive_s)})"
+        waited = f"wait {setting.at} for {names(expected)} ({span(happening.start_s - happening.arrive_s)})"
     return said_of(f"{waited}, then ", plural)
 
 
@@ -125,11 +157,14 @@ def _after(happening: Happening) -> str:
 
 def _length(happening: Happening) -> str:
     action = happening.activity.action
+    if action is Action.ENTER_EXIT:
+        return ""
     if math.isnan(happening.end_s):
         return " until the world ends"
     since_s = happening.arrive_s if action in (Action.QUEUE, Action.WAIT) else happening.start_s
     length_s = happening.end_s - since_s
-    return "" if action is Action.ENTER_EXIT or length_s < _WORTH_TELLING_S else f" for {span(length_s)}"
+    in_vain = " and gives up" if happening.in_vain and action is Action.QUEUE else ""
+    return ("" if length_s < _WORTH_TELLING_S else f" for {span(length_s)}") + in_vain
 
 
 def _ending(world: World, agent: int) -> list[str]:
@@ -137,11 +172,15 @@ def _ending(world: World, agent: int) -> list[str]:
     person = world.plan.people[agent]
     mine = [done for done in world.motion.executed if done.agent == agent]
     if not mine:
-        return [f"Person {agent} does not come before the world ends."]
+        return [_absence(agent)]
     last = mine[-1]
     if person.leaves or last.step < len(person.activities) - 1 or math.isnan(last.end_s):
         return []
     return [f"{clock(last.end_s)} stays there to the end."]
+
+
+def _absence(agent: int) -> str:
+    return f"Person {agent} has not come when the world ends."
 
 
 def _check(number: int, n: int, what: str) -> None:

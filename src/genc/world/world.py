@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from genc.motion.motion import Motion
 from genc.plan.plan import CrowdPlan
 
-
 Provenance = Mapping[str, str | int | float | None]
 
 

@@ -5,18 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 import zipfile
 import zlib
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from genc.errors import OutputError, WorldFileError
+from genc.errors import WorldFileError
+from genc.files import written_beside
 from genc.motion.motion import Motion
 from genc.plan.plan import CrowdPlan, Person
 from genc.scenario.scenario import Environment, Location
@@ -35,8 +33,6 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)
 def write_world(world: World, path: Path | str) -> None:
     """Writes a world to one file; equal worlds give equal bytes.
 
-    The file is written beside its place and then renamed, so that there is the whole of it or nothing.
-
     Raises:
         OutputError: if nothing can be written there.
     """
@@ -49,7 +45,7 @@ def write_world(world: World, path: Path | str) -> None:
         "headings.npy": _npy(headings),
         "present.npy": _npy(world.motion.present),
     }
-    with _written_beside(Path(path)) as part, zipfile.ZipFile(part, "w") as archive:
+    with written_beside(path) as part, zipfile.ZipFile(part, "w") as archive:
         for name, content in members.items():
             member = zipfile.ZipInfo(name, _EPOCH)
             member.create_system = 3
@@ -170,17 +166,3 @@ def _array(content: bytes, dtype: type) -> NDArray[Any]:
     if values.dtype != dtype:
         raise ValueError(f"an array of {values.dtype} where {np.dtype(dtype)} is due")
     return values
-
-
-@contextmanager
-def _written_beside(path: Path) -> Iterator[Path]:
-    """A path in the same folder that takes the place of `path` if all goes well, and vanishes if not."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        try:
-            yield part
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise OutputError(f"{path}: the world cannot be written ({error.strerror}); name another folder") from None
