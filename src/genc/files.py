@@ -32,8 +32,8 @@ def written_beside(path: Path | str) -> Iterator[Path]:
     finally:
         if beside.is_dir():
             shutil.rmtree(beside, ignore_errors=True)
-        else:
-            beside.unlink(missing_ok=True)
+        elif beside.exists():
+            beside.unlink()
 
 
 def write_text(path: Path | str, text: str) -> None:

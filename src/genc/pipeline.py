@@ -5,6 +5,7 @@ Room: pipeline. In: a sentence. Out: a `World`. May import: every room below. Ne
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -30,6 +31,8 @@ from genc.world.world import Provenance, World
 
 MOST_AGENTS = 20_000
 MOST_MINUTES = 240.0
+GUIDANCE = 2.0
+"""One sentence has to steer a whole crowd; at 1 the groups are as various as those that were learned."""
 
 
 def populate(  # noqa: PLR0913 - the product's own door: every wish has a name and a default
@@ -49,7 +52,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
         theme: a theme of the shipped corpus; narrows the choice of a layout and colours the sentence.
         minutes: length of the world.
         environment: the layout; by default that of the authored scenario nearest in meaning.
-        generator: a trained generator; by default the one that comes with the package.
+        generator: a trained generator; by default the one that comes with the package, with `GUIDANCE`.
 
     Raises:
         BriefError: for an empty sentence, an unknown theme, or a crowd or length out of range.
@@ -58,7 +61,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     """
     check_request(text, n_agents, minutes)
     authored = load_corpus(None if theme is None else [theme])
-    generator = load_generator() if generator is None else generator
+    generator = replace(load_generator(), guidance=GUIDANCE) if generator is None else generator
     for_groups, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
 
     asked = text if theme is None else f"{theme}: {text}"
@@ -70,7 +73,17 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
         affinity=np.tile(affinity(asked, layout, generator.encoder), (len(groups), 1)),
     )
     plan = plan_crowd([unfold(group) for group in groups], layout, request, for_plan)
-    return play(plan, for_motion, {"text": text, "theme": theme, "seed": seed, "model": generator.hash})
+    return play(
+        plan,
+        for_motion,
+        {
+            "text": text,
+            "theme": theme,
+            "seed": seed,
+            "model": generator.hash,
+            "guidance": generator.guidance,
+        },
+    )
 
 
 def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:
@@ -113,3 +126,10 @@ def check_request(text: str, n_agents: int, minutes: float) -> None:
         raise BriefError(f"a crowd of {n_agents} cannot be made: ask for 1 to {MOST_AGENTS} agents")
     if not 0 < minutes <= MOST_MINUTES:
         raise BriefError(f"a world of {minutes} minutes cannot be made: ask for more than 0, at most {MOST_MINUTES:g}")
+
+
+def check_guidance(guidance: float) -> float:
+    """The guidance itself; raises `BriefError` if no generator can be steered so."""
+    if not 0 <= guidance <= 10:
+        raise BriefError(f"a guidance of {guidance:g} cannot be followed: ask for 0 to 10")
+    return guidance

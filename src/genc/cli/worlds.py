@@ -31,6 +31,7 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print the su
     "--environment", default=None, type=click.Path(path_type=Path), help="A layout: script or JSON; else the nearest."
 )
 @click.option("--model", default=None, type=click.Path(path_type=Path), help="A trained model; else the shipped one.")
+@click.option("--guidance", default=2.0, show_default=True, help="How far the sentence steers; 1: as learned.")
 @out_option
 @json_option
 def populate(  # noqa: PLR0913 - one parameter for each option
@@ -41,13 +42,16 @@ def populate(  # noqa: PLR0913 - one parameter for each option
     seed: int,
     environment: Path | None,
     model: Path | None,
+    guidance: float,
     out: Path,
     as_json: bool,
 ) -> None:
     """Makes a world of TEXT: one sentence that says where it is, who is there and what they do."""
+    from dataclasses import replace
+
     from genc.files import ensure_folder
     from genc.model.checkpoint import SHIPPED, load_generator
-    from genc.pipeline import check_request
+    from genc.pipeline import check_guidance, check_request
     from genc.pipeline import populate as make
     from genc.scenario.corpus import load_theme
     from genc.scenario.exchange import read_environment
@@ -56,7 +60,7 @@ def populate(  # noqa: PLR0913 - one parameter for each option
     if theme is not None:
         load_theme(theme)
     layout = None if environment is None else read_environment(environment)
-    generator = load_generator(SHIPPED if model is None else model)
+    generator = replace(load_generator(SHIPPED if model is None else model), guidance=check_guidance(guidance))
     ensure_folder(out)
     world = make(
         text, n_agents=agents, theme=theme, minutes=minutes, seed=seed, environment=layout, generator=generator

@@ -142,8 +142,13 @@ class Steps:
 
     def _direct(self) -> Tensor:
         """bool `[B, T, T]`: some agent does r and then s (or s and then r) with nothing between."""
-        count = torch.where(self.members, self.members.long().cumsum(1), -9)  # (B, T, A)
-        return ((count[:, :, None] - count[:, None, :]).abs() == 1).any(-1)
+        b, n, agents = self.members.shape
+        t = torch.arange(n, device=self.members.device)[:, None]
+        latest = torch.where(self.members, t, -1).cummax(1).values  # (B, T, A)
+        before = torch.cat([latest.new_full((b, 1, agents), -1), latest[:, :-1]], dim=1)
+        before = torch.where(self.members & (before >= 0), before, n)
+        follows = torch.zeros(b, n, n + 1, dtype=torch.bool, device=t.device).scatter_(2, before, True)[..., :n]
+        return follows | follows.transpose(1, 2)
 
 
 def _padded(rows: Sequence[np.ndarray]) -> Tensor:

@@ -88,7 +88,10 @@ class Chooser:
     def _options(self, occasion: Occasion, candidates: dict[Category, list[int]]) -> list[int]:
         if occasion.wished is not None and occasion.wished in self.environment:
             return [self.environment.locations.index(self.environment[occasion.wished])]
-        return candidates[occasion.category]
+        found = candidates[occasion.category]
+        lacking = self.environment.locations[found[0]].category is not occasion.category
+        # who goes out or comes in, and lacks the place for it, uses an entrance
+        return self._candidates(Category.ENTRANCE) if lacking and occasion.action is Action.ENTER_EXIT else found
 
     def _candidates(self, category: Category) -> list[int]:
         for wanted in (category, *SUBSTITUTES[category]):

@@ -17,6 +17,7 @@ from genc.plan.occasion import Occasion, rows_of
 from genc.plan.plan import Activity, Person, Slot
 from genc.plan.seating import Seat, Seating, towards
 from genc.plan.services import Services
+from genc.plan.walkable import is_solid
 from genc.scenario.durations import sample_durations
 from genc.words.vocabulary import ACTION_INDEX, CATEGORY_INDEX, Action, Category
 
@@ -94,6 +95,11 @@ class _Run:
         self.services = Services(seating.places)
         places = seating.environment.locations
         self.entrances = [i for i, place in enumerate(places) if place.category is Category.ENTRANCE]
+        solid = is_solid(seating.environment)
+        self.ways_out = {
+            i for i, p in enumerate(places) if i in self.entrances or (p.category is Category.BUILDING and solid[i])
+        }
+        """Where people come into sight and go out of it; a room is only walked into."""
         actions = np.array([ACTION_INDEX[o.action] for o in self.occasions])
         categories = np.array([CATEGORY_INDEX[o.category] for o in self.occasions])
         self.lasts_s: list[float] = sample_durations(actions, categories, rng).tolist()
@@ -205,9 +211,7 @@ class _Run:
     ) -> None:
         appears = not life.activities
         # who comes in is not seen before; who is there from the beginning waits in sight
-        leave_s = (
-            (start_s if life.begin_s > 0 or occasion.action is Action.ENTER_EXIT else 0.0) if appears else life.end_s
-        )
+        leave_s = (start_s if life.begin_s > 0 or self._passes(occasion) else 0.0) if appears else life.end_s
         if life.seat is not None and life.seat is not seat:
             life.seat.until_s = life.end_s
         location = self.location[occasion.number]
@@ -221,7 +225,11 @@ class _Run:
 
     def _must_come(self, life: Life, occasion: Occasion) -> bool:
         """Whether somebody's group comes in, and so they do too, though no step of theirs says so."""
-        return life.seat is None and life.begin_s > 0 and occasion.action is not Action.ENTER_EXIT
+        return life.seat is None and life.begin_s > 0 and not self._passes(occasion)
+
+    def _passes(self, occasion: Occasion) -> bool:
+        """Whether people come into sight or go out of it."""
+        return occasion.action is Action.ENTER_EXIT and self.location[occasion.number] in self.ways_out
 
     def _gate(self, near: Slot) -> tuple[int, Slot]:
         """The entrance nearest to a slot."""
@@ -264,14 +272,14 @@ class _Run:
     def _close(self, life: Life) -> Person:
         """Sends home who has nothing left to do, and lets who has been served make room."""
         last = life.activities[-1]
-        leaves = last.action is Action.ENTER_EXIT
+        leaves = last.action is Action.ENTER_EXIT and last.location in self.ways_out
         if not leaves and life.activities[0].action is Action.ENTER_EXIT:
             entrance, door = self._gate(last.slot)
             there_s = last.end_s + self._walk_s(life, last.slot, door)
             if there_s < self.world_s:
                 self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), there_s, there_s + PASSAGE_S)
                 leaves = True
-        elif not leaves and (last.action is Action.QUEUE or self._is_service_slot(last)):
+        elif not leaves and (last.action in (Action.QUEUE, Action.ENTER_EXIT) or self._is_service_slot(last)):
             seat = self.seating.any_spot(last.location, last.end_s)
             there_s = last.end_s + self._walk_s(life, last.slot, seat.slot)
             self._imply(life, Action.WAIT, (last.location, seat), there_s, max(there_s, self.world_s))

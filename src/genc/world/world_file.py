@@ -157,7 +157,8 @@ def _location(place: dict[str, Any]) -> Location:
 
 def _npy(values: NDArray[Any]) -> bytes:
     buffer = io.BytesIO()
-    np.lib.format.write_array(buffer, np.ascontiguousarray(values), allow_pickle=False)
+    little_endian = values.dtype.newbyteorder("<")
+    np.lib.format.write_array(buffer, np.ascontiguousarray(values, dtype=little_endian), allow_pickle=False)
     return buffer.getvalue()
 
 
