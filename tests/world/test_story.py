@@ -12,7 +12,8 @@ from genc.motion.motion import Executed, Motion, Status
 from genc.plan.plan import Activity, CrowdPlan, Person, Slot
 from genc.scenario.scenario import Environment, Location
 from genc.words.vocabulary import Action, Category
-from genc.world.story import tell_agent, tell_group, tell_world
+from genc.world.overview import tell_world
+from genc.world.story import tell_agent, tell_group
 from genc.world.world import World
 
 PLACES = Environment(

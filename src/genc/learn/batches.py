@@ -24,8 +24,8 @@ class Asking:
     or missing. Texts are few and a network learns them by heart within a few epochs, so an embedding also gets noise.
     """
 
-    caption: float = 0.35
-    sentence: float = 0.5
+    caption: float = 0.5
+    sentence: float = 0.4
     frequencies: float = 0.5
     noise: float = 0.03
     """Standard deviation in each dimension of a unit vector."""

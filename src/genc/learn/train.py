@@ -25,7 +25,7 @@ class TrainConfig:
         asking: how groups are asked for, and what is left out of the asking how often.
     """
 
-    epochs: int = 40
+    epochs: int = 32
     batch_size: int = 96
     learning_rate: float = 2e-3
     weight_decay: float = 0.05

@@ -37,7 +37,7 @@ class CodecConfig:
     structure_depth: int = 2
     feature_depth: int = 2
     dropout: float = 0.3
-    text_dropout: float = 0.5
+    text_dropout: float = 0.3
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Sequence
 from itertools import groupby
 
 from genc.errors import BriefError
 from genc.words.vocabulary import Action
-from genc.world.census import tell_minutes, tell_people, tell_places, tell_status
 from genc.world.happenings import Happening, happenings
 from genc.world.phrases import Setting, clock, doing, is_social, names, passing, said_of, span
 from genc.world.world import World
 
-_N_EXAMPLES = 2
 _WORTH_TELLING_S = 8.0
 """Shorter waits are not told, and shorter doings are told without their length."""
 
@@ -51,36 +48,6 @@ def tell_group(world: World, group: int) -> list[str]:
         lines.append(f"{clock(_told_s(happening))} {names(agents, most=15)} {told}.")
     absent = set(members) - {done.agent for done in world.motion.executed}
     return lines + [_absence(agent) for agent in sorted(absent)]
-
-
-def tell_world(world: World) -> list[str]:
-    """What the world is, how it was made, what goes on in it minute by minute, and the stories of two groups."""
-    text = world.provenance.get("text")
-    examples = _examples(world)
-    return [
-        *([str(text)] if text else []),
-        tell_people(world),
-        *world.plan.notes,
-        *_section("Minute by minute", tell_minutes(world)),
-        *_section("Places, the busiest first", tell_places(world)),
-        *_section("Some of the groups", [line for group in examples for line in tell_group(world, group)]),
-        "",
-        tell_status(world),
-    ]
-
-
-def _section(title: str, lines: Sequence[str]) -> list[str]:
-    return ["", f"{title}:", *lines] if lines else []
-
-
-def _examples(world: World) -> list[int]:
-    """Groups whose stories are worth reading first: those whose people did most together, in order of number."""
-    together: Counter[int] = Counter()
-    for done in world.motion.executed:
-        person = world.plan.people[done.agent]
-        together[person.group] += bool(person.activities[done.step].partners)
-    most = sorted(together, key=lambda group: (-together[group], group))[:_N_EXAMPLES]
-    return sorted(most)
 
 
 def _chapters(told: Sequence[Happening]) -> list[list[Happening]]:
