@@ -47,6 +47,11 @@ class Brief:
                 f"{self.n_nodes} nodes are too few for {self.n_agents or 1} agents in {self.n_events or 1}"
                 f" events that tie them together: ask for at least {least}"
             )
+        if self.n_nodes and self.n_agents and self.n_events == 1 and self.n_nodes % self.n_agents:
+            raise BriefError(
+                f"{self.n_agents} agents in one event do the same number of things each, which {self.n_nodes} nodes do "
+                f"not give: ask for a multiple of {self.n_agents}, or for more events"
+            )
         if self.action_frequencies is not None:
             self._check_frequencies(self.action_frequencies)
 
