@@ -1,156 +1,204 @@
-"""`Walkable`: the ground of an environment on which people can stand and walk (docs/conventions.md)."""
+"""The free ground of an environment, and the shortest ways across it.
+
+All footprints are axis-aligned rectangles. What is solid is said in `docs/conventions.md`: buildings, unless other
+locations lie inside them, and small furniture, items, exhibits and service areas. Everything else is ground.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.ndimage import label
+from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import distance_transform_edt, label
+from scipy.sparse.csgraph import shortest_path
 
-from genc.errors import LayoutError
-from genc.plan.routes import Bools, Floats, Ints, Routes
-from genc.scenario.scenario import Environment
+from genc.scenario.scenario import Environment, Location
 from genc.words.vocabulary import Category
 
+Floats = NDArray[np.float64]
+
 BODY_RADIUS_M = 0.25
-"""How near the middle of a person may come to something solid."""
+"""Kept clear of every footprint."""
 MARGIN_M = 6.0
-"""Walkable ground on every side of the outermost footprint."""
+"""Walkable ground round everything."""
+LARGE_M2 = 40.0
+"""A thing with a larger footprint is an area with such things in it: a ring of benches, a market."""
+CELL_M = 0.2
 
-_NEVER_SOLID = frozenset({Category.ROOM, Category.OUTDOOR_AREA, Category.ENTRANCE})
-_DEEPEST_SOLID_M = {
-    Category.BUILDING: np.inf,
-    Category.FURNITURE: 3.0,
-    Category.ITEM: 6.0,
-    Category.EXHIBIT: 6.0,
-    Category.SERVICE_AREA: 6.0,
-}
-"""The longest short side of a solid thing. A bench is solid, a food court's seating is floor to walk through."""
-_INSIDE_SHARE = 0.6
-"""The share of a location's footprint that must lie in another's for it to be inside."""
-_EDGE_M = 1e-6
+_THINGS = (Category.FURNITURE, Category.ITEM, Category.EXHIBIT, Category.SERVICE_AREA)
 
 
-@dataclass(frozen=True, eq=False)
+def is_solid(environment: Environment) -> NDArray[np.bool_]:
+    """For each location, whether its footprint is an obstacle, `[n_locations]`."""
+    places = environment.locations
+    return np.array([_is_solid(place, [other for other in places if other is not place]) for place in places])
+
+
+def _is_solid(place: Location, others: Sequence[Location]) -> bool:
+    holds_another = any(_holds(place, other) for other in others)
+    if place.category is Category.BUILDING:
+        return not holds_another
+    width_m, depth_m = place.size_m
+    return place.category in _THINGS and width_m * depth_m <= LARGE_M2 and not holds_another
+
+
+def _holds(place: Location, other: Location) -> bool:
+    """Whether the other's centre lies inside, well away from the edge (a door lies on it)."""
+    if other.category is Category.ENTRANCE:
+        return False
+    return all(
+        abs(b - a) < size / 2 - min(0.5, size / 4)
+        for a, b, size in zip(place.position_m, other.position_m, place.size_m, strict=True)
+    )
+
+
 class Walkable:
-    """Free ground and the ways on it; built once for an environment.
-
-    A point is free if a body of radius `BODY_RADIUS_M` can stand there and walk to the outside. Ground that solid
-    things enclose is not free.
+    """Free ground with shortest ways round the obstacles.
 
     Attributes:
-        obstacles_m: [k, 4] footprints of the solid locations as xmin, ymin, xmax, ymax.
-        bounds_m: [4] the end of the world: all footprints and a margin of walkable ground around them.
+        obstacles_m: `[k, 4]` solid footprints (xmin, ymin, xmax, ymax).
+        bounds_m: (xmin, ymin, xmax, ymax) of the world.
     """
 
-    obstacles_m: Floats
-    bounds_m: Floats
+    def __init__(self, obstacles_m: Floats, bounds_m: tuple[float, float, float, float]) -> None:
+        self.obstacles_m, self.bounds_m = obstacles_m, bounds_m
+        self._kept_clear = obstacles_m + BODY_RADIUS_M * np.array([-1.0, -1.0, 1.0, 1.0])
 
-    @classmethod
-    def of(cls, environment: Environment) -> Walkable:
-        """The ground of an environment.
+    @staticmethod
+    def of(environment: Environment) -> Walkable:
+        """The free ground of an environment."""
+        boxes = np.array([box_of(place) for place in environment.locations]).reshape(-1, 4)
+        bounds = (*(boxes[:, :2].min(0) - MARGIN_M).tolist(), *(boxes[:, 2:].max(0) + MARGIN_M).tolist())
+        return Walkable(boxes[is_solid(environment)], bounds)
 
-        Raises:
-            LayoutError: for an environment without locations.
-        """
-        if not environment.locations:
-            raise LayoutError("the environment has no locations: give it at least one")
-        boxes_m = footprints_m(environment)
-        bounds_m = np.concatenate([boxes_m[:, :2].min(axis=0) - MARGIN_M, boxes_m[:, 2:].max(axis=0) + MARGIN_M])
-        return cls(boxes_m[is_solid(environment)], bounds_m)
+    def free(self, points_m: ArrayLike) -> NDArray[np.bool_]:
+        """bool `[n]`: inside the bounds, a body's radius clear of every obstacle, and reachable."""
+        points = np.asarray(points_m, dtype=float).reshape(-1, 2)
+        clear = self._clear(points)
+        clear[clear] = self._main[self._cell(points[clear])]
+        return clear
 
-    def free(self, points_m: Floats) -> Bools:
-        """Whether one can stand there and get away, [n] for points [n, 2]."""
-        points_m = np.asarray(points_m, dtype=float).reshape(-1, 2)
-        within = ((points_m >= self.bounds_m[:2]) & (points_m <= self.bounds_m[2:])).all(axis=1)
-        return np.asarray(within & ~_inside(points_m, self._blocked_m))
+    def snap(self, points_m: ArrayLike) -> Floats:
+        """`[n, 2]`: the points themselves where they are free, else the nearest free ground."""
+        points = np.array(points_m, dtype=float).reshape(-1, 2)
+        lost = ~self.free(points)
+        points[lost] = self._centre(*self._nearest[:, *self._cell(points[lost])])
+        return points
 
-    def snap(self, points_m: Floats) -> Floats:
-        """The nearest free points, [n, 2]; a free point stays where it is."""
-        points_m = np.array(points_m, dtype=float).reshape(-1, 2)
-        for i in np.flatnonzero(~self.free(points_m)).tolist():
-            nearest_m = np.clip(points_m[i], self._open_m[:, :2], self._open_m[:, 2:])
-            points_m[i] = nearest_m[((nearest_m - points_m[i]) ** 2).sum(axis=1).argmin()]
-        return points_m
+    def path(self, start_m: ArrayLike, goal_m: ArrayLike) -> Floats:
+        """`[p, 2]` the shortest way, both ends included."""
+        return self.paths(np.reshape(start_m, (1, 2)), np.reshape(goal_m, (1, 2)))[0]
 
-    def path(self, start_m: Floats, goal_m: Floats) -> Floats:
-        """The shortest way, [p, 2] with both ends; see `paths`."""
-        return self.paths(np.asarray(start_m)[None], np.asarray(goal_m)[None])[0]
-
-    def paths(self, starts_m: Floats, goals_m: Floats) -> list[Floats]:
-        """The shortest ways around everything solid, start by start, each [p, 2] with both ends.
-
-        An end that is not free is left, or reached, straight over the nearest free point.
-        """
-        starts_m, goals_m = (np.asarray(ends_m, dtype=float).reshape(-1, 2) for ends_m in (starts_m, goals_m))
-        from_m, to_m = self.snap(starts_m), self.snap(goals_m)
-        ways = self._routes.ways(from_m, to_m)
-        for i in np.flatnonzero((from_m != starts_m).any(axis=1)).tolist():
-            ways[i] = np.concatenate([starts_m[i : i + 1], ways[i]])
-        for i in np.flatnonzero((to_m != goals_m).any(axis=1)).tolist():
-            ways[i] = np.concatenate([ways[i], goals_m[i : i + 1]])
+    def paths(self, starts_m: ArrayLike, goals_m: ArrayLike) -> list[Floats]:
+        """The shortest way from each start `[n, 2]` to its own goal `[n, 2]`."""
+        starts, goals = np.asarray(starts_m, dtype=float), np.asarray(goals_m, dtype=float)
+        ways = [np.stack(ends) for ends in zip(starts, goals, strict=True)]
+        round_about = np.flatnonzero(self._blocked(starts, goals))
+        if len(round_about) == 0 or len(self._corners) == 0:
+            return ways
+        first, last = self._to_corners(starts[round_about]), self._to_corners(goals[round_about])
+        ahead = (first[:, :, None] + self._between[None]).min(1) + last  # (n, corner)
+        for row, end in zip(round_about, ahead.argmin(1), strict=True):
+            i = int(np.searchsorted(round_about, row))
+            if np.isfinite(ahead[i, end]):
+                begin = int((first[i] + self._between[:, end]).argmin())
+                ways[row] = np.concatenate(
+                    [starts[row, None], self._corners[self._chain(begin, int(end))], goals[row, None]]
+                )
         return ways
 
-    def distances(self, starts_m: Floats, goals_m: Floats) -> Floats:
-        """Metres to walk from each start to each goal, [n, m]; ends that are not free count from where they snap."""
-        return self._routes.lengths_m(self.snap(starts_m), self.snap(goals_m))
+    def distances(self, starts_m: ArrayLike, goals_m: ArrayLike) -> Floats:
+        """`[n, m]` metres of the shortest way from each start `[n, 2]` to each goal `[m, 2]`."""
+        starts, goals = np.asarray(starts_m, dtype=float), np.asarray(goals_m, dtype=float)
+        n, m = len(starts), len(goals)
+        straight = np.linalg.norm(starts[:, None] - goals[None], axis=2)
+        blocked = self._blocked(np.repeat(starts, m, axis=0), np.tile(goals, (n, 1))).reshape(n, m)
+        if not blocked.any() or len(self._corners) == 0:
+            return straight
+        ahead = (self._to_corners(starts)[:, :, None] + self._between[None]).min(1)
+        round_about = (ahead[:, None, :] + self._to_corners(goals)[None]).min(2)
+        # where no way is known the straight line stands in, so that nothing is infinitely far
+        return np.where(blocked & np.isfinite(round_about), round_about, straight)
 
-    def clear(self, starts_m: Floats, goals_m: Floats) -> Bools:
-        """Whether one can walk straight from start to goal; both broadcast to [..., 2]."""
-        return self._routes.clear(np.asarray(starts_m, dtype=float), np.asarray(goals_m, dtype=float))
+    def _clear(self, points: Floats) -> NDArray[np.bool_]:
+        x, y = points[:, :1], points[:, 1:]
+        box = self._kept_clear
+        hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
+        low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
+        inside: NDArray[np.bool_] = ((points >= low) & (points <= high)).all(1) & ~hit.any(1)
+        return inside
 
-    @cached_property
-    def _inflated_m(self) -> Floats:
-        return self.obstacles_m + np.array([-1, -1, 1, 1]) * BODY_RADIUS_M
-
-    @cached_property
-    def _cells(self) -> tuple[Floats, NDArray[np.int32]]:
-        """The bounds cut along all obstacle sides: cells [c, 4] and for each its connected ground, 0 if blocked."""
-        xs_m, ys_m = (np.unique(np.concatenate([self._inflated_m[:, i::2].ravel(), self.bounds_m[i::2]])) for i in (0, 1))
-        low_m = np.stack(np.meshgrid(xs_m[:-1], ys_m[:-1], indexing="ij"), axis=-1)
-        high_m = np.stack(np.meshgrid(xs_m[1:], ys_m[1:], indexing="ij"), axis=-1)
-        blocked = _inside(((low_m + high_m) / 2).reshape(-1, 2), self._inflated_m).reshape(low_m.shape[:2])
-        grounds, _ = label(~blocked)
-        return np.concatenate([low_m, high_m], axis=-1).reshape(-1, 4), grounds.ravel()
-
-    @cached_property
-    def _open_m(self) -> Floats:
-        """Cells [c, 4] of the ground that reaches the end of the world, drawn in so that their edges are free."""
-        cells_m, grounds = self._cells
-        open_m = cells_m[grounds == grounds[0]]
-        inset_m = np.minimum((open_m[:, 2:] - open_m[:, :2]) / 2, _EDGE_M)
-        return open_m + np.concatenate([inset_m, -inset_m], axis=1)
-
-    @cached_property
-    def _blocked_m(self) -> Floats:
-        """Where nobody can stand, [b, 4]: solid things, with a body's radius around them, and enclosed ground."""
-        cells_m, grounds = self._cells
-        enclosed = (grounds != grounds[0]) & (grounds != 0)
-        return np.concatenate([self._inflated_m, cells_m[enclosed]])
+    def _blocked(self, starts: Floats, ends: Floats) -> NDArray[np.bool_]:
+        """bool `[n]`: the straight line from start to end crosses what is kept clear (slab test)."""
+        low, high = self._kept_clear[:, :2] + 1e-6, self._kept_clear[:, 2:] - 1e-6
+        step = (ends - starts)[:, None]
+        step = np.where(np.abs(step) < 1e-12, 1e-12, step)
+        to_low, to_high = (low - starts[:, None]) / step, (high - starts[:, None]) / step
+        enter = np.minimum(to_low, to_high).max(2)
+        leave = np.maximum(to_low, to_high).min(2)
+        crossed: NDArray[np.bool_] = ((enter < leave) & (leave > 0) & (enter < 1)).any(1)
+        return crossed
 
     @cached_property
-    def _routes(self) -> Routes:
-        x = self._inflated_m + np.array([-1, -1, 1, 1]) * _EDGE_M
-        corners_m = x[:, [[0, 1], [2, 1], [2, 3], [0, 3]]].reshape(-1, 2)
-        return Routes(self._inflated_m, corners_m[self.free(corners_m)])
+    def _corners(self) -> Floats:
+        """`[c, 2]` the turning points of shortest ways."""
+        x0, y0, x1, y1 = (self._kept_clear + 1e-3 * np.array([-1.0, -1.0, 1.0, 1.0])).T
+        corners = np.concatenate([np.stack(c, axis=1) for c in ((x0, y0), (x0, y1), (x1, y0), (x1, y1))])
+        return corners[self._clear(corners)]
+
+    def _to_corners(self, points: Floats) -> Floats:
+        """`[n, c]` metres in a straight line; infinite where the line is blocked."""
+        n, c = len(points), len(self._corners)
+        blocked = self._blocked(np.repeat(points, c, axis=0), np.tile(self._corners, (n, 1))).reshape(n, c)
+        return np.where(blocked, np.inf, np.linalg.norm(points[:, None] - self._corners[None], axis=2))
+
+    @cached_property
+    def _roads(self) -> tuple[Floats, NDArray[np.int32]]:
+        lengths, before = shortest_path(self._to_corners(self._corners), directed=False, return_predecessors=True)
+        return lengths, before
+
+    @property
+    def _between(self) -> Floats:
+        """`[c, c]` metres of the shortest way between corners."""
+        return self._roads[0]
+
+    def _chain(self, begin: int, end: int) -> list[int]:
+        """The corners of the shortest way between two corners."""
+        chain = [end]
+        while chain[-1] != begin:
+            chain.append(int(self._roads[1][begin, chain[-1]]))
+        return chain[::-1]
+
+    # A grid tells which ground hangs together.
+
+    @cached_property
+    def _main(self) -> NDArray[np.bool_]:
+        """bool `[columns, rows]`: cells of the one part of the ground that reaches the border."""
+        x0, y0, x1, y1 = self.bounds_m
+        shape = int((x1 - x0) / CELL_M) + 1, int((y1 - y0) / CELL_M) + 1
+        cells = np.indices(shape).reshape(2, -1)
+        parts, _ = label(self._clear(self._centre(*cells)).reshape(shape))
+        main: NDArray[np.bool_] = parts == parts[0, 0]
+        return main
+
+    @cached_property
+    def _nearest(self) -> NDArray[np.int32]:
+        """`[2, columns, rows]`: for each cell the nearest cell of the main part."""
+        nearest: NDArray[np.int32] = distance_transform_edt(~self._main, return_distances=False, return_indices=True)
+        return nearest
+
+    def _cell(self, points: Floats) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        at = np.floor((points - np.array(self.bounds_m[:2])) / CELL_M).astype(np.int64)
+        columns, rows = np.clip(at, 0, np.array(self._main.shape) - 1).T
+        return columns, rows
+
+    def _centre(self, columns: ArrayLike, rows: ArrayLike) -> Floats:
+        return np.stack([columns, rows], axis=-1) * CELL_M + np.array(self.bounds_m[:2]) + CELL_M / 2
 
 
-def footprints_m(environment: Environment) -> Floats:
-    """The rectangles of all locations, [l, 4] as xmin, ymin, xmax, ymax."""
-    centres_m = np.array([location.position_m for location in environment.locations])
-    halves_m = np.array([location.size_m for location in environment.locations]) / 2
-    return np.concatenate([centres_m - halves_m, centres_m + halves_m], axis=1)
-
-
-def is_solid(environment: Environment) -> Bools:
-    """Which locations are obstacles, [l].
-
-    Rooms, outdoor areas and entrances never are. A building and a thing are, unless another location lies inside
-    it or it is so deep that it must be floor (a food court's seating, a show ring).
-    """
-    locations = environment.locations
-    deepest_m = np.array([_DEEPEST_SOLID_M.get(location.category, 0.0) for location in locations])
-    depth_m = np.array([min(location.size_m) for location in locations])
-    return np.asarray((depth_m <= deepest_m) & (hosts(environment) == np.arange(len(locations))[:, None]).sum(axis=1) == 0)
+def box_of(place: Location) -> tuple[float, float, float, float]:
+    """The footprint of a location (xmin, ymin, xmax, ymax) in metres."""
+    (x, y), (width, depth) = place.position_m, place.size_m
+    return x - width / 2, y - depth / 2, x + width / 2, y + depth / 2
