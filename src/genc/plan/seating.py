@@ -34,7 +34,8 @@ class Seating:
         self, environment: Environment, places: Sequence[Places], walkable: Walkable, rng: np.random.Generator
     ) -> None:
         self.environment, self.places, self.walkable, self.rng = environment, places, walkable, rng
-        self._held: defaultdict[tuple[int, int], list[Seat]] = defaultdict(list)
+        self._held: defaultdict[tuple[int, int], dict[tuple[float, float], Seat]] = defaultdict(dict)
+        """For each square metre, the last to have taken each point in it: they stay longer than all before them."""
 
     def is_free(self, position_m: tuple[float, float], from_s: float) -> bool:
         """Whether nobody holds a seat within arm's length at `from_s` or later."""
@@ -42,9 +43,8 @@ class Seating:
         column, row = math.floor(x), math.floor(y)
         for i in (column - 1, column, column + 1):
             for j in (row - 1, row, row + 1):
-                for seat in self._held.get((i, j), ()):
-                    at_x, at_y = seat.slot.position_m
-                    if seat.until_s > from_s and math.hypot(x - at_x, y - at_y) < ELBOW_M:
+                for at_m, seat in self._held.get((i, j), {}).items():
+                    if seat.until_s > from_s and math.dist(position_m, at_m) < ELBOW_M:
                         return False
         return True
 
@@ -52,7 +52,7 @@ class Seating:
         """Takes a slot until further notice."""
         seat = Seat(slot)
         x, y = slot.position_m
-        self._held[math.floor(x), math.floor(y)].append(seat)
+        self._held[math.floor(x), math.floor(y)][slot.position_m] = seat
         return seat
 
     def any_spot(self, location: int, from_s: float) -> Seat:

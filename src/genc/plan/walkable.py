@@ -84,7 +84,8 @@ class Walkable:
         """`[n, 2]`: the points themselves where they are free, else the nearest free ground."""
         points = np.array(points_m, dtype=float).reshape(-1, 2)
         lost = ~self.free(points)
-        points[lost] = self._centre(*self._nearest[:, *self._cell(points[lost])])
+        columns, rows = self._nearest[:, *self._cell(points[lost])]
+        points[lost] = self._centre(columns, rows)
         return points
 
     def path(self, start_m: ArrayLike, goal_m: ArrayLike) -> Floats:
