@@ -18,7 +18,7 @@ export TEXT
 
 populate: $(READY)
 	$(BIN)/genc populate "$$TEXT" --agents $(AGENTS) --out $(OUT)
-	$(BIN)/genc story $(OUT) --group 0
+	$(BIN)/genc story $(OUT) --group 17
 
 test: $(READY)
 	$(BIN)/pytest

@@ -30,9 +30,10 @@ def written_beside(path: Path | str) -> Iterator[Path]:
     except OSError as error:
         raise OutputError(f"{target} cannot be written ({error.strerror or error}); name another place") from error
     finally:
-        if beside.is_dir():
+        # os.path, for it takes a name that is too long for one that is not there
+        if os.path.isdir(beside):
             shutil.rmtree(beside, ignore_errors=True)
-        elif beside.exists():
+        elif os.path.exists(beside):
             beside.unlink()
 
 

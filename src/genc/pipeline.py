@@ -23,7 +23,7 @@ from genc.plan.plan import CrowdPlan
 from genc.plan.slots import places_of
 from genc.plan.walkable import Walkable
 from genc.scenario.corpus import load_corpus
-from genc.scenario.meaning import affinity, nearest_layout
+from genc.scenario.meaning import FAMILIAR, Layout, affinity, nearest_layout
 from genc.scenario.rehearse import rehearse
 from genc.scenario.scenario import Environment, Scenario
 from genc.words.brief import Brief
@@ -33,6 +33,10 @@ MOST_AGENTS = 20_000
 MOST_MINUTES = 240.0
 GUIDANCE = 2.0
 """One sentence has to steer a whole crowd; at 1 the groups are as various as those that were learned."""
+UNFAMILIAR = (
+    "the sentence is far from every sentence that was learned, so the crowd may not match it; the text encoder knows "
+    "English best"
+)
 
 
 def populate(  # noqa: PLR0913 - the product's own door: every wish has a name and a default
@@ -65,25 +69,17 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     for_groups, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
 
     asked = text if theme is None else f"{theme}: {text}"
-    layout = nearest_layout(asked, authored, generator.encoder) if environment is None else environment
+    layout = Layout(environment) if environment else nearest_layout(asked, authored, generator.encoder)
     groups = compose(partial(sample_groups, generator, asked, for_groups), n_agents)
     request = PlanRequest(
         duration_s=60 * minutes,
         captions=(text,) * len(groups),
-        affinity=np.tile(affinity(asked, layout, generator.encoder), (len(groups), 1)),
+        affinity=np.tile(affinity(asked, layout.environment, generator.encoder), (len(groups), 1)),
+        notes=() if layout.nearness >= FAMILIAR else (f"{UNFAMILIAR} ({layout.nearness:.2f})",),
     )
-    plan = plan_crowd([unfold(group) for group in groups], layout, request, for_plan)
-    return play(
-        plan,
-        for_motion,
-        {
-            "text": text,
-            "theme": theme,
-            "seed": seed,
-            "model": generator.hash,
-            "guidance": generator.guidance,
-        },
-    )
+    plan = plan_crowd([unfold(group) for group in groups], layout.environment, request, for_plan)
+    made_with = {"theme": theme, "seed": seed, "model": generator.hash, "guidance": generator.guidance}
+    return play(plan, for_motion, {"text": text, **made_with})
 
 
 def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:

@@ -44,8 +44,8 @@ def world(model, tmp_path_factory):
     from click.testing import CliRunner
 
     out = tmp_path_factory.mktemp("world")
-    args = ["populate", TEXT, "--agents", "17", "--theme", "museum", "--minutes", "3", "--model", str(model), "--out", str(out)]
-    result = CliRunner().invoke(cli, args, catch_exceptions=False)
+    args = ["populate", TEXT, "--agents", "17", "--theme", "museum", "--minutes", "3", "--model", str(model)]
+    result = CliRunner().invoke(cli, [*args, "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0
     return out
 
@@ -131,7 +131,8 @@ def _bad_inputs(tmp_path: Path, model: Path) -> dict[str, tuple[list[object], st
 def test_bad_input_gets_one_clear_line_and_exit_code_2(genc, model, tmp_path):
     for name, (args, said) in _bad_inputs(tmp_path, model).items():
         before = sorted(tmp_path.rglob("*"))
-        code, out, err = genc(*args, *(["--out", tmp_path / "w"] if args[0] == "populate" and "--out" not in args else []))
+        where = ["--out", tmp_path / "w"] if args[0] == "populate" and "--out" not in args else []
+        code, out, err = genc(*args, *where)
         assert (code, out, len(err)) == (2, "", 1), (name, code, out, err)
         assert err[0].startswith("error: "), name
         assert said in err[0], (name, err[0])

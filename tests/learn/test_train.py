@@ -20,7 +20,7 @@ from genc.words.brief import Brief
 from genc.words.embed import Hashing
 
 MODEL = CodecConfig(
-    text_dim=Hashing.dimension, width=16, heads=2, latent=4, condition=8, encoder_depth=1, structure_depth=1, feature_depth=1
+    Hashing.dimension, 16, 2, latent=4, condition=8, encoder_depth=1, structure_depth=1, feature_depth=1
 )
 CONFIG = TrainConfig(epochs=3, batch_size=32)
 
@@ -81,7 +81,7 @@ def test_a_run_with_other_settings_is_refused_and_so_is_a_damaged_one(data, tmp_
 
 def test_a_missing_device_is_refused(data, tmp_path, monkeypatch):
     monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    with pytest.raises(CheckpointError, match="no CUDA device"):
+    with pytest.raises(CheckpointError, match="no device 'cuda'"):
         train(data[1], tmp_path / "run", CONFIG, MODEL, device="cuda")
 
 

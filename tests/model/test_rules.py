@@ -98,9 +98,7 @@ def test_random_structures_of_any_size_end_with_exact_counts():
 
 def test_no_authored_structure_is_refused():
     scenarios = load_corpus()[::8]
-    graphs = [
-        g for i, s in enumerate(scenarios) for g in weave(rehearse(s, np.random.default_rng(i)).records).groups()
-    ]
+    graphs = [g for i, s in enumerate(scenarios) for g in weave(rehearse(s, np.random.default_rng(i)).records).groups()]
     batch = GroupBatch.of([encode(g) for g in graphs])
     counts = torch.tensor([[g.n_agents, g.n_events, g.n_nodes] for g in graphs])
     rules = StructureRules(*counts.unbind(1))

@@ -9,9 +9,7 @@ from genc.model.tensors import GroupBatch, Steps
 from genc.scenario.corpus import load_corpus
 from genc.scenario.rehearse import rehearse
 
-TOKENS = [
-    encode(group) for group in weave(rehearse(load_corpus()[3], np.random.default_rng(0)).records).groups()
-]
+TOKENS = [encode(group) for group in weave(rehearse(load_corpus()[3], np.random.default_rng(0)).records).groups()]
 
 
 def _members(tokens: Tokens) -> list[tuple[int, int, set[int]]]:

@@ -9,7 +9,7 @@ from genc.model.generator import CodecGenerator
 from genc.words.embed import Hashing
 
 CONFIG = CodecConfig(
-    text_dim=Hashing.dimension, width=16, heads=2, latent=4, condition=8, encoder_depth=1, structure_depth=1, feature_depth=1
+    Hashing.dimension, 16, 2, latent=4, condition=8, encoder_depth=1, structure_depth=1, feature_depth=1
 )
 
 

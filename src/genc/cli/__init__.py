@@ -28,8 +28,21 @@ for command in (populate, stage, story, corpus, dataset, train):
 def main() -> None:
     """Runs the command line; what the user can mend is said in one line each, with exit code 2."""
     try:
-        cli()
+        cli(standalone_mode=False)
     except GencError as error:
-        for line in str(error).splitlines():
-            click.echo(f"error: {line}", err=True)
+        _refuse(str(error).splitlines())
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
         sys.exit(2)
+    except click.ClickException as error:
+        command = error.ctx.command_path if isinstance(error, click.UsageError) and error.ctx else "genc"
+        _refuse([f"{' '.join(error.format_message().split())} See '{command} --help'."])
+    except click.Abort:
+        click.echo("interrupted: run the same command again", err=True)
+        sys.exit(130)
+
+
+def _refuse(lines: list[str]) -> None:
+    for line in lines:
+        click.echo(f"error: {line}", err=True)
+    sys.exit(2)

@@ -17,7 +17,9 @@ def dataset() -> None:
 @click.argument("scripts", nargs=-1, type=click.Path(path_type=Path))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Folder to make.")
 @click.option("--encoder", default="minilm", show_default=True, help="Text encoder: minilm, mpnet or hashing.")
-@click.option("--seed", default=0, show_default=True, help="Of the split and the rehearsals.")
+@click.option(
+    "--seed", default=0, show_default=True, type=click.IntRange(0, 2**32 - 1), help="Of the split and the rehearsals."
+)
 def build(scripts: tuple[Path, ...], out: Path, encoder: str, seed: int) -> None:
     """Makes a dataset of SCRIPTS (files or folders; by default the shipped corpus).
 
@@ -38,7 +40,7 @@ def build(scripts: tuple[Path, ...], out: Path, encoder: str, seed: int) -> None
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Folder of the run and of the model.")
 @click.option("--epochs", default=None, type=int, help="Length of the schedule.")
 @click.option("--batch-size", default=None, type=int, help="Groups in a batch.")
-@click.option("--seed", default=0, show_default=True)
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0, 2**32 - 1))
 @click.option("--device", default="cpu", show_default=True, help="cpu or cuda.")
 def train(dataset_folder: Path, out: Path, epochs: int | None, batch_size: int | None, seed: int, device: str) -> None:
     """Trains the codec generator on DATASET, and leaves the best weights in the folder.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_text
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,9 @@ out_option = click.option(
     "--out", default="out/world", show_default=True, type=click.Path(path_type=Path), help="Folder for the world."
 )
 minutes_option = click.option("--minutes", default=10.0, show_default=True, help="Length of the world.")
-seed_option = click.option("--seed", default=0, show_default=True, help="Same seed, same bytes.")
+seed_option = click.option(
+    "--seed", default=0, show_default=True, type=click.IntRange(0, 2**32 - 1), help="Same seed, same bytes."
+)
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 
 
@@ -102,7 +105,7 @@ def story(world: Path, agent: int | None, group: int | None) -> None:
 
     if agent is not None and group is not None:
         raise BriefError("--agent and --group were both given: tell of one or the other")
-    found = read_world(world / WORLD_FILE if world.is_dir() else world)
+    found = read_world(world / WORLD_FILE if os.path.isdir(world) else world)
     if agent is not None:
         lines = tell_agent(found, agent)
     elif group is not None:

@@ -91,10 +91,12 @@ def decode(tokens: Tokens) -> CrowdGraph:
         raise ValueError("the last event has no turns token")
     n_members = np.diff(np.r_[-1, ends]) - 1
     n_turns = tokens.structure[ends] - (MAX_AGENTS - 1)
-    if n_members.min() == 0 or n_turns.sum() != len(tokens.action):
+    if n_members.min() == 0 or any(len(done) != n_turns.sum() for done in (tokens.action, tokens.category)):
         raise ValueError("an event without agents, or turns without actions")
     members = tokens.structure[tokens.structure < MAX_AGENTS]
     member_event = np.repeat(np.arange(len(ends)), n_members)
+    if np.any((np.diff(members) <= 0) & (np.diff(member_event) == 0)):
+        raise ValueError("the agents of an event are not in ascending order")
     member_turns = n_turns[member_event]
     agent, event = np.repeat(members, member_turns), np.repeat(member_event, member_turns)
     turn = np.arange(len(agent)) - np.repeat(np.cumsum(member_turns) - member_turns, member_turns)

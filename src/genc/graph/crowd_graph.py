@@ -37,7 +37,7 @@ class CrowdGraph:
 
     def __post_init__(self) -> None:
         for name in ("agent", "event", "action", "category"):
-            values = np.ascontiguousarray(getattr(self, name), dtype=np.int64)
+            values = np.array(getattr(self, name), dtype=np.int64)  # its own: the caller may change theirs
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         fault = self._fault()

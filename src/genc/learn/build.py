@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -59,9 +61,9 @@ def build_dataset(scenarios: Sequence[Scenario], encoder: TextEncoder, folder: P
         DatasetError: if the folder holds another dataset, or there are too few scenarios to split.
         OutputError: if it cannot be written.
     """
-    if len(scenarios) < 3:
+    if max(Counter(s.theme for s in scenarios).values(), default=0) < len(SPLITS):
         raise DatasetError(
-            f"{len(scenarios)} scenarios cannot be split into {', '.join(SPLITS)}: at least 3 are needed"
+            f"{len(scenarios)} scenarios cannot be split into {', '.join(SPLITS)}: at least 3 of one theme are needed"
         )
     draft = _draft(scenarios, seed)
     manifest = _manifest(scenarios, draft, encoder, seed)
@@ -69,6 +71,7 @@ def build_dataset(scenarios: Sequence[Scenario], encoder: TextEncoder, folder: P
     if (place / "manifest.json").exists():
         if load_dataset(place).manifest != manifest:
             raise DatasetError(f"{place}: holds another dataset: name another folder, or remove this one")
+        _clear(place / "partial")
         return manifest
     embeddings = _embed(draft.texts, encoder, place / "partial")
     flat = {**groups_as_arrays(draft.tokens), "story": draft.story, "caption": draft.caption}
@@ -141,6 +144,4 @@ def _embed(texts: Sequence[str], encoder: TextEncoder, partial: Path) -> NDArray
 
 
 def _clear(partial: Path) -> None:
-    for file in partial.iterdir():
-        file.unlink()
-    partial.rmdir()
+    shutil.rmtree(partial, ignore_errors=True)

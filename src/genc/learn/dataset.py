@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -142,7 +143,7 @@ def load_dataset(path: Path | str) -> Dataset:
         DatasetError: if it is missing, incomplete, damaged, or of another version or vocabulary.
     """
     folder = Path(path)
-    if not (folder / "manifest.json").is_file():
+    if not os.path.isfile(folder / "manifest.json"):
         raise DatasetError(f"{folder}: no dataset here (no manifest.json): make one with 'genc dataset build'")
     try:
         manifest = Manifest(**_read_json(folder / "manifest.json"))

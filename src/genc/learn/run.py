@@ -47,8 +47,7 @@ def train(dataset: Dataset, folder: Path | str, config: TrainConfig, model: Code
         CheckpointError: if the folder holds a run of another dataset or other settings, or the device is missing.
         OutputError: if it cannot be written.
     """
-    if device.startswith("cuda") and not torch.cuda.is_available():
-        raise CheckpointError("no CUDA device was found: use --device cpu")
+    _check_device(device)
     place = ensure_folder(folder)
     plan = {"dataset": dataset.manifest.hash, "train": asdict(config), "model": asdict(model)}
     trainer = Trainer(dataset, model, config, torch.device(device))
@@ -64,6 +63,12 @@ def train(dataset: Dataset, folder: Path | str, config: TrainConfig, model: Code
     card = {**plan, "best": asdict(best), "epochs_run": trainer.epoch, "themes": dataset.manifest.themes}
     save_checkpoint(place, trainer.averaged, dataset.manifest.encoder, card)
     return place
+
+
+def _check_device(device: str) -> None:
+    cuda = ["cuda", *(f"cuda:{i}" for i in range(torch.cuda.device_count()))] if torch.cuda.is_available() else []
+    if device not in ("cpu", *cuda):
+        raise CheckpointError(f"no device {device!r} was found: choose one of {', '.join(['cpu', *cuda])}")
 
 
 def _finished(trainer: Trainer, best: _Best) -> bool:

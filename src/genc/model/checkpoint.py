@@ -70,10 +70,10 @@ def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = N
     text = load_encoder(config["encoder"]) if encoder is None else encoder
     if text.dimension != shape.text_dim:
         raise CheckpointError(f"{place}: made for text vectors of {shape.text_dim}; {text.id} gives {text.dimension}")
-    model = CodecModel(shape)
     try:
+        model = CodecModel(shape)
         model.load_state_dict(weights)
-    except RuntimeError as error:
+    except (RuntimeError, TypeError, ValueError) as error:
         detail = " ".join(str(error).split())[:160]
         raise CheckpointError(
             f"{place}: the weights do not fit their own config ({detail}): fetch them anew"

@@ -30,12 +30,14 @@ class PlanRequest:
         affinity: `[n_groups, n_locations]` how well each location's name suits each group's text; None for no matter.
         triggers: for an event, the event that must have ended before it begins; events are numbered as in the records,
             which must then be numbered over the whole crowd.
+        notes: what the asker has to be told already.
     """
 
     duration_s: float
     captions: tuple[str, ...] = ()
     affinity: NDArray[np.float64] | None = None
     triggers: Mapping[int, int] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def plan_crowd(
@@ -63,4 +65,4 @@ def plan_crowd(
         notes.insert(0, f"this environment has no entrance: a {WAY_IN} was added at its edge")
     cast = Cast(occasions, locations, request.triggers)
     people = schedule(cast, Seating(layout, places, walkable, rng), request.duration_s, rng)
-    return CrowdPlan(layout, people, request.duration_s, request.captions, tuple(notes))
+    return CrowdPlan(layout, people, request.duration_s, request.captions, (*request.notes, *notes))

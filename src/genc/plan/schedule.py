@@ -9,10 +9,11 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from genc.plan.life import Life
 from genc.plan.occasion import Occasion, rows_of
 from genc.plan.plan import Activity, Person, Slot
 from genc.plan.seating import Seat, Seating, towards
@@ -38,40 +39,9 @@ _ELASTIC = (
     Action.TALK_ON_PHONE,
     Action.READ,
     Action.LOOK_AT,
+    Action.OBJECT_INTERACT,
 )
 """Doings that last as long as there is time."""
-
-
-@dataclass(eq=False)
-class Life:
-    """How far one person's row has come.
-
-    Attributes:
-        begin_s: when the person's group comes; 0 if it is there from the beginning.
-        row: the numbers of the person's occasions.
-        workplace: the location of a service that the person runs, or None.
-        seat, location: where the person is after all that is scheduled; None and -1 before the first.
-    """
-
-    group: int
-    begin_s: float
-    speed_mps: float
-    row: list[int]
-    workplace: int | None = None
-    activities: list[Activity] = field(default_factory=list)
-    seat: Seat | None = None
-    location: int = -1
-    n_done: int = 0
-
-    @property
-    def end_s(self) -> float:
-        """When the last scheduled doing ends."""
-        return self.activities[-1].end_s if self.activities else self.begin_s
-
-    def next(self, skip: int = 0) -> int | None:
-        """The number of the next occasion, or of one after it; None at the end of the row."""
-        at = self.n_done + skip
-        return self.row[at] if at < len(self.row) else None
 
 
 @dataclass(frozen=True)
@@ -270,20 +240,26 @@ class _Run:
                     life.activities[-1] = replace(life.activities[-1], end_s=end_s)
 
     def _close(self, life: Life) -> Person:
-        """Sends home who has nothing left to do, and lets who has been served make room."""
+        """Lets people stay at what they do last, if the world ends soon or they work there; sends the others home."""
         last = life.activities[-1]
         leaves = last.action is Action.ENTER_EXIT and last.location in self.ways_out
-        if not leaves and life.activities[0].action is Action.ENTER_EXIT:
+        if not leaves and self._lingers(life, last):
+            life.activities[-1] = replace(last, end_s=max(last.end_s, self.world_s))
+        elif not leaves:
             entrance, door = self._gate(last.slot)
             there_s = last.end_s + self._walk_s(life, last.slot, door)
-            if there_s < self.world_s:
+            leaves = there_s < self.world_s
+            if leaves:
                 self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), there_s, there_s + PASSAGE_S)
-                leaves = True
-        elif not leaves and (last.action in (Action.QUEUE, Action.ENTER_EXIT) or self._is_service_slot(last)):
-            seat = self.seating.any_spot(last.location, last.end_s)
-            there_s = last.end_s + self._walk_s(life, last.slot, seat.slot)
-            self._imply(life, Action.WAIT, (last.location, seat), there_s, max(there_s, self.world_s))
         return Person(life.group, life.speed_mps, tuple(life.activities), leaves)
+
+    def _lingers(self, life: Life, last: Activity) -> bool:
+        if life.workplace is None and self.world_s - last.end_s > MOST_STRETCH_S:
+            return False
+        if last.action not in _ELASTIC or self._is_service_slot(last):
+            return False
+        others = [self.lives[agent] for agent in last.partners]
+        return all(o.activities[-1].occasion == last.occasion and o.workplace == life.workplace for o in others)
 
     # Slots.
 

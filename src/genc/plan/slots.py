@@ -162,7 +162,7 @@ def _spots(place: Location, solid: bool, service: Sequence[Slot], walkable: Walk
         points = points[taken.query(points)[0] >= APART_M]
     kept = _spread(points, MOST_SPOTS)
     if place.category in (Category.ROOM, Category.OUTDOOR_AREA, Category.ENTRANCE, Category.BUILDING) and not solid:
-        return tuple(Slot(_pair(p), 2 * math.pi * _golden(i) - math.pi) for i, p in enumerate(kept))
+        return tuple(Slot(_pair(p), 2 * math.pi * float(_golden(i)) - math.pi) for i, p in enumerate(kept))
     return tuple(_facing(p, centre) for p in kept)
 
 
@@ -220,7 +220,8 @@ def _along(place: Location, side: int, n: int, beyond_m: float) -> Floats:
     tangent = np.array([-normal[1], normal[0]])
     length = place.size_m[1 - side % 2]
     offsets = (np.arange(n) - (n - 1) / 2) * max(min(length / n, 1.5), APART_M)
-    return np.array(place.position_m) + normal * (_half(place, side) + beyond_m) + offsets[:, None] * tangent
+    points: Floats = np.array(place.position_m) + normal * (_half(place, side) + beyond_m) + offsets[:, None] * tangent
+    return points
 
 
 def _ring(place: Location, beyond_m: float) -> Floats:

@@ -114,22 +114,23 @@ class Walkable:
         """`[n, m]` metres of the shortest way from each start `[n, 2]` to each goal `[m, 2]`."""
         starts, goals = np.asarray(starts_m, dtype=float), np.asarray(goals_m, dtype=float)
         n, m = len(starts), len(goals)
-        straight = np.linalg.norm(starts[:, None] - goals[None], axis=2)
+        straight: Floats = np.linalg.norm(starts[:, None] - goals[None], axis=2)
         blocked = self._blocked(np.repeat(starts, m, axis=0), np.tile(goals, (n, 1))).reshape(n, m)
         if not blocked.any() or len(self._corners) == 0:
             return straight
         ahead = (self._to_corners(starts)[:, :, None] + self._between[None]).min(1)
         round_about = (ahead[:, None, :] + self._to_corners(goals)[None]).min(2)
         # where no way is known the straight line stands in, so that nothing is infinitely far
-        return np.where(blocked & np.isfinite(round_about), round_about, straight)
+        best: Floats = np.where(blocked & np.isfinite(round_about), round_about, straight)
+        return best
 
     def _clear(self, points: Floats) -> NDArray[np.bool_]:
         x, y = points[:, :1], points[:, 1:]
         box = self._kept_clear
         hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
         low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
-        inside: NDArray[np.bool_] = ((points >= low) & (points <= high)).all(1) & ~hit.any(1)
-        return inside
+        inside = ((points >= low) & (points <= high)).all(axis=1)
+        return np.asarray(inside & ~hit.any(axis=1), dtype=bool)
 
     def _blocked(self, starts: Floats, ends: Floats) -> NDArray[np.bool_]:
         """bool `[n]`: the straight line from start to end crosses what is kept clear (slab test)."""
@@ -196,7 +197,8 @@ class Walkable:
         return columns, rows
 
     def _centre(self, columns: ArrayLike, rows: ArrayLike) -> Floats:
-        return np.stack([columns, rows], axis=-1) * CELL_M + np.array(self.bounds_m[:2]) + CELL_M / 2
+        cells = np.stack([np.asarray(columns), np.asarray(rows)], axis=-1)
+        return np.asarray((cells + 0.5) * CELL_M + np.array(self.bounds_m[:2]), dtype=np.float64)
 
 
 def box_of(place: Location) -> tuple[float, float, float, float]:

@@ -36,6 +36,8 @@ class Brief:
     def __post_init__(self) -> None:
         if not self.text.strip():
             raise BriefError("the sentence is empty: say where it is, who is there and what they do")
+        if any("\ud800" <= letter <= "\udfff" for letter in self.text):
+            raise BriefError("the sentence holds bytes that are no UTF-8 text: write it in UTF-8")
         if len(self.text) > LONGEST_TEXT:
             raise BriefError(f"the sentence has {len(self.text)} characters; at most {LONGEST_TEXT} can be read")
         self._check_count("agents", self.n_agents, MAX_AGENTS)

