@@ -138,5 +138,10 @@ def _write(world: World, out: Path, *, as_json: bool) -> None:
     if as_json:
         click.echo(json_text.dumps(summary, ensure_ascii=False, indent=1))
     else:
-        click.echo(f"{path}: {summary['agents']} people in {summary['groups']} groups, {summary['minutes']:g} minutes")
+        people, groups = _counted(len(plan.people), "person", "people"), _counted(len(plan.captions), "group", "groups")
+        click.echo(f"{path}: {people} in {groups}, {plan.duration_s / 60:g} minutes")
         click.echo(f"read it with 'genc story {out}'")
+
+
+def _counted(n: int, one: str, many: str) -> str:
+    return f"{n:,} {one if n == 1 else many}"
