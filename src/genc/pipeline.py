@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from genc.errors import BriefError
+from genc.errors import BriefError, LayoutError
 from genc.graph.crowd_graph import CrowdGraph
 from genc.graph.weave import unfold
 from genc.model.checkpoint import load_generator
@@ -31,6 +31,8 @@ from genc.world.world import Provenance, World
 
 MOST_AGENTS = 20_000
 MOST_MINUTES = 240.0
+MOST_EXTENT_M = 1000.0
+"""Side of a layout: its ground is kept as a grid of small cells."""
 GUIDANCE = 2.0
 """One sentence has to steer a whole crowd; at 1 the groups are as various as those that were learned."""
 UNFAMILIAR = (
@@ -70,6 +72,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
 
     asked = text if theme is None else f"{theme}: {text}"
     layout = Layout(environment) if environment else nearest_layout(asked, authored, generator.encoder)
+    check_extent(layout.environment)
     groups = compose(partial(sample_groups, generator, asked, for_groups), n_agents)
     request = PlanRequest(
         duration_s=60 * minutes,
@@ -87,8 +90,10 @@ def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:
 
     Raises:
         BriefError: for a length out of range.
+        LayoutError: for an environment in which nobody can be placed.
     """
     check_request(scenario.sentence, 1, minutes)
+    check_extent(scenario.environment)
     for_order, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
     rehearsal = rehearse(scenario, for_order)
     groups = [
@@ -122,6 +127,18 @@ def check_request(text: str, n_agents: int, minutes: float) -> None:
         raise BriefError(f"a crowd of {n_agents} cannot be made: ask for 1 to {MOST_AGENTS} agents")
     if not 0 < minutes <= MOST_MINUTES:
         raise BriefError(f"a world of {minutes} minutes cannot be made: ask for more than 0, at most {MOST_MINUTES:g}")
+
+
+def check_extent(environment: Environment) -> None:
+    """Raises `LayoutError` for an environment that spreads too far to walk."""
+    for axis, name in enumerate("xy"):
+        edges_m = [p.position_m[axis] + side * p.size_m[axis] / 2 for p in environment.locations for side in (-1, 1)]
+        extent_m = max(edges_m) - min(edges_m)
+        if extent_m > MOST_EXTENT_M:
+            raise LayoutError(
+                f"the environment is {extent_m:g} m long in {name}; at most {MOST_EXTENT_M:g} m can be walked: check "
+                "its positions and sizes"
+            )
 
 
 def check_guidance(guidance: float) -> float:

@@ -36,6 +36,14 @@ test_train.train(load_dataset({data!r}), {out!r}, test_train.CONFIG, test_train.
 """
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _one_thread():
+    before = torch.get_num_threads()
+    torch.set_num_threads(1)
+    yield
+    torch.set_num_threads(before)
+
+
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
     folder = tmp_path_factory.mktemp("data") / "museum"
@@ -47,14 +55,14 @@ def _script(data, out):
 
 
 def test_killed_after_an_epoch_a_run_goes_on_to_the_same_weights(data, tmp_path):
-    subprocess.run([sys.executable, "-c", _script(data, tmp_path / "whole")], check=True)
+    train(data[1], tmp_path / "whole", CONFIG, MODEL)
     process = subprocess.Popen([sys.executable, "-c", _script(data, tmp_path / "killed")])
     while process.poll() is None and not (tmp_path / "killed" / "run.json").exists():
         time.sleep(0.01)
     process.kill()
     process.wait()
     assert not (tmp_path / "killed" / "config.json").exists(), "it ended before it could be killed"
-    subprocess.run([sys.executable, "-c", _script(data, tmp_path / "killed")], check=True)
+    train(data[1], tmp_path / "killed", CONFIG, MODEL)
     for name in ("model.safetensors", "config.json", "run.json"):
         assert (tmp_path / "killed" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
     group = load_generator(tmp_path / "killed").sample([Brief("look", n_agents=2)], np.random.default_rng(0))[0]

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from safetensors.numpy import load_file, save_file
+from safetensors.numpy import load_file, save
 from tqdm import tqdm
 
 from genc.errors import DatasetError
@@ -76,9 +76,9 @@ def build_dataset(scenarios: Sequence[Scenario], encoder: TextEncoder, folder: P
     embeddings = _embed(draft.texts, encoder, place / "partial")
     flat = {**groups_as_arrays(draft.tokens), "story": draft.story, "caption": draft.caption}
     with written_beside(place / "groups.safetensors") as beside:
-        save_file(flat, beside)
+        beside.write_bytes(save(flat))
     with written_beside(place / "texts.safetensors") as beside:
-        save_file({"embeddings": embeddings}, beside)
+        beside.write_bytes(save({"embeddings": embeddings}))
     said = {"texts": draft.texts, "stories": [vars(story) for story in draft.stories]}
     write_text(place / "texts.json", json.dumps(said, ensure_ascii=False, indent=1) + "\n")
     write_text(place / "manifest.json", manifest_json(manifest))
@@ -137,8 +137,9 @@ def _embed(texts: Sequence[str], encoder: TextEncoder, partial: Path) -> NDArray
     for start in tqdm(range(0, len(texts), BLOCK), desc="embedding texts", unit="block", disable=None):
         saved = partial / f"{key}-{start:06d}.safetensors"
         if not saved.exists():
+            content = save({"block": encoder.encode(texts[start : start + BLOCK])})
             with written_beside(saved) as beside:
-                save_file({"block": encoder.encode(texts[start : start + BLOCK])}, beside)
+                beside.write_bytes(content)
         blocks.append(load_file(saved)["block"])
     return np.concatenate(blocks)
 

@@ -154,7 +154,7 @@ def load_dataset(path: Path | str) -> Dataset:
         if manifest.vocabulary_hash != vocabulary_hash():
             raise DatasetError(f"{folder}: made with another vocabulary of actions and categories: build it anew")
         return _assemble(folder, manifest)
-    except (OSError, ValueError, KeyError, TypeError, SafetensorError) as error:
+    except (OSError, ValueError, LookupError, TypeError, SafetensorError) as error:
         raise DatasetError(f"{folder}: the dataset is damaged ({error}): build it anew") from error
 
 
@@ -174,8 +174,19 @@ def _assemble(folder: Path, manifest: Manifest) -> Dataset:
     embeddings = load_file(folder / "texts.safetensors")["embeddings"]
     if len(tokens) != manifest.n_groups or embeddings.shape != (len(said["texts"]), manifest.dimension):
         raise ValueError("its files do not match its manifest")
-    return Dataset(
+    dataset = Dataset(
         manifest, tuple(said["texts"]), stories, flat["story"], flat["caption"], tokens, embeddings.astype(np.float32)
+    )
+    if len(dataset.counts) != len(dataset.story) or _outside(dataset):  # counting decodes, and so checks, every group
+        raise ValueError("its groups, scenarios and texts do not match")
+    return dataset
+
+
+def _outside(dataset: Dataset) -> bool:
+    """Whether something refers to a scenario or a text that is not there."""
+    used = [*dataset.caption.tolist(), *(i for story in dataset.stories for i in story.texts)]
+    return not (
+        set(dataset.story.tolist()) <= set(range(len(dataset.stories))) and set(used) <= set(range(len(dataset.texts)))
     )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import torch
 from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
+from safetensors.torch import load_file, save
 from torch import Tensor
 from tqdm import tqdm
 
@@ -92,12 +92,16 @@ def _save(place: Path, plan: dict[str, Any], trainer: Trainer, best: _Best, kept
     state = {f"best.{name}": tensor for name, tensor in kept.items()} | trainer.state()
     name = f"state-{trainer.epoch:04d}.safetensors"
     with written_beside(place / name) as beside:
-        save_file({key: tensor.contiguous() for key, tensor in state.items()}, beside)
+        beside.write_bytes(save({key: tensor.contiguous() for key, tensor in state.items()}))
     said = {"plan": plan, "epoch": trainer.epoch, "state": name, "best": asdict(best), "history": trainer.history}
     write_text(place / "run.json", json.dumps(said, indent=1) + "\n")
-    for old in place.glob("state-*.safetensors"):
-        if old.name != name:
-            old.unlink()
+    _drop_others(place, name)
+
+
+def _drop_others(place: Path, state: str) -> None:
+    for other in place.glob("state-*.safetensors"):
+        if other.name != state:
+            other.unlink()
 
 
 def _resume(place: Path, plan: dict[str, Any], trainer: Trainer) -> tuple[_Best, dict[str, Tensor]]:
@@ -112,6 +116,7 @@ def _resume(place: Path, plan: dict[str, Any], trainer: Trainer) -> tuple[_Best,
                 "command that began it"
             )
         state = load_file(place / said["state"])
+        _drop_others(place, said["state"])
         trainer.restore(state, said["epoch"], said["history"])
         kept = {key.removeprefix("best."): tensor for key, tensor in state.items() if key.startswith("best.")}
         return _Best(**said["best"]), kept

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from safetensors import SafetensorError
-from safetensors.torch import load, save_file
+from safetensors.torch import load, save
 
 from genc.errors import CheckpointError
 from genc.files import ensure_folder, write_text, written_beside
@@ -35,7 +35,7 @@ def save_checkpoint(folder: Path | str, model: CodecModel, encoder_id: str, trai
     """
     place = ensure_folder(folder)
     with written_beside(place / WEIGHTS) as beside:
-        save_file({name: tensor.contiguous() for name, tensor in model.state_dict().items()}, beside)
+        beside.write_bytes(save({name: tensor.contiguous() for name, tensor in model.state_dict().items()}))
     digest = hashlib.sha256((place / WEIGHTS).read_bytes()).hexdigest()
     config = {
         "schema": SCHEMA,

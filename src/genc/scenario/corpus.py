@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -74,7 +75,7 @@ def script_files(paths: Iterable[Path | str]) -> list[Path]:
     """
     files: list[Path] = []
     for path in map(Path, paths):
-        inside = _scripts_in(path) if path.is_dir() else [path]
+        inside = _scripts_in(path) if os.path.isdir(path) else [path]
         if not inside:
             raise ScriptError([f"{path}: no scripts in this folder; put .txt or .json files there"])
         files += inside

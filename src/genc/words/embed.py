@@ -143,7 +143,7 @@ class MPNet:
             raise EncoderError(f"{self.id} needs sentence-transformers: pip install 'genc[mpnet]'") from error
         except (OSError, ValueError, RuntimeError) as error:
             raise EncoderError(
-                f"{self.id} is not on this machine and could not be fetched ({str(error).splitlines()[0][:120]}): "
+                f"{self.id} is not on this machine and could not be fetched ({' '.join(str(error).split())[:120]}): "
                 "connect once so that it is cached, or use --encoder minilm"
             ) from error
 
