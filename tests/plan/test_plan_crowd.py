@@ -17,7 +17,9 @@ from genc.scenario.corpus import load_corpus
 from genc.scenario.record import Record, Step
 from genc.words.vocabulary import Action, Category
 
-SCENARIOS = load_corpus()[::24]
+TIGHT = "coffee-cart-monday"
+"""Parties of several are served here close upon each other."""
+SCENARIOS = [scenario for i, scenario in enumerate(load_corpus()) if i % 24 == 0 or scenario.slug == TIGHT]
 PLANS = {scenario.slug: authored(scenario) for scenario in SCENARIOS}
 EVERY = pytest.mark.parametrize("slug", PLANS)
 
@@ -89,7 +91,7 @@ def test_triggers_are_honoured(slug):
         wanted = [activity for activity in person.activities if not activity.implied]
         for step, activity in zip(record.steps, wanted, strict=True):
             begins[step.event] = min(begins[step.event], activity.start_s)
-            ends[step.event] = max(ends[step.event], activity.start_s)
+            ends[step.event] = max(ends[step.event], activity.end_s)
     for event, trigger in rehearsal.triggers.items():
         assert begins[event] >= ends[trigger] - 1e-6
 

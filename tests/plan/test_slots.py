@@ -88,11 +88,16 @@ def test_a_talking_circle_faces_inward(n):
     assert all(_faces(slot, (8.0, 6.0)) > 0.9 for slot in ring)
 
 
-def test_more_spots_are_as_many_as_asked_for_and_free():
+@pytest.mark.parametrize("margin_m", [0.0, 8.0])
+def test_more_spots_are_free_and_within_their_margin(margin_m):
     for place in HALL.locations:
-        spots = more_spots(place, GROUND, 300, np.random.default_rng(0))
-        assert len(spots) == 300
-        assert GROUND.free(_points(spots)).all()
+        spots = more_spots(place, GROUND, margin_m, 100, np.random.default_rng(0))
+        points = _points(spots)
+        assert 1 <= len(spots) <= 100
+        assert GROUND.free(points).all()
+        beyond_m = np.abs(points - place.position_m) - np.array(place.size_m) / 2
+        assert beyond_m.max() <= max(margin_m, 1.0)
+    assert len(more_spots(HALL["lawn"], GROUND, margin_m, 100, np.random.default_rng(0))) > 80
 
 
 def test_a_building_is_entered_where_it_faces_the_rest():

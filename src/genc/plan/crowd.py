@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genc.errors import LayoutError
+from genc.plan.arrivals import Cast
 from genc.plan.occasion import occasions_of
 from genc.plan.place import WAY_IN, Chooser, with_way_in
 from genc.plan.plan import CrowdPlan
-from genc.plan.schedule import Cast, schedule
+from genc.plan.schedule import schedule
 from genc.plan.seating import Seating
 from genc.plan.slots import places_of
 from genc.plan.walkable import Walkable

@@ -13,14 +13,14 @@ class Life:
     """How far one person's row has come.
 
     Attributes:
-        begin_s: when the person's group comes; 0 if it is there from the beginning.
+        comes_s: when the person comes in; None for who is there from the beginning.
         row: the numbers of the person's occasions.
         workplace: the location of a service that the person runs, or None.
         seat, location: where the person is after all that is scheduled; None and -1 before the first.
     """
 
     group: int
-    begin_s: float
+    comes_s: float | None
     speed_mps: float
     row: list[int]
     workplace: int | None = None
@@ -32,7 +32,7 @@ class Life:
     @property
     def end_s(self) -> float:
         """When the last scheduled doing ends."""
-        return self.activities[-1].end_s if self.activities else self.begin_s
+        return self.activities[-1].end_s if self.activities else self.comes_s or 0.0
 
     def next(self, skip: int = 0) -> int | None:
         """The number of the next occasion, or of one after it; None at the end of the row."""

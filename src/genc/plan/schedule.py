@@ -8,24 +8,26 @@ from __future__ import annotations
 
 import heapq
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from genc.plan.arrivals import Cast, Outline
 from genc.plan.life import Life
 from genc.plan.occasion import Occasion, rows_of
 from genc.plan.plan import Activity, Person, Slot
 from genc.plan.seating import Seat, Seating, towards
 from genc.plan.services import Services
-from genc.plan.walkable import is_solid
+from genc.plan.venue import Venue
 from genc.scenario.durations import sample_durations
 from genc.words.vocabulary import ACTION_INDEX, CATEGORY_INDEX, Action, Category
 
-ARRIVALS = 0.6
-"""The part of the world's length over which groups come in."""
 MOST_STRETCH_S = 240.0
 """Longest time by which a doing is drawn out to meet others on time."""
+WORTH_A_MENTION_S = 20.0
+"""Who stays behind for longer than this goes on with what they all did."""
 PASSAGE_S = 2.0
 """Time to pass an entrance, where no step asked for it."""
 
@@ -44,15 +46,6 @@ _ELASTIC = (
 """Doings that last as long as there is time."""
 
 
-@dataclass(frozen=True)
-class Cast:
-    """What is to be scheduled: occasions, the location index of each, and for an event the one it waits for."""
-
-    occasions: Sequence[Occasion]
-    locations: Sequence[int]
-    triggers: Mapping[int, int]
-
-
 def schedule(cast: Cast, seating: Seating, duration_s: float, rng: np.random.Generator) -> tuple[Person, ...]:
     """Everybody with a timed row of activities in a world of that length."""
     return _Run(cast, seating, duration_s, rng).people()
@@ -61,15 +54,9 @@ def schedule(cast: Cast, seating: Seating, duration_s: float, rng: np.random.Gen
 class _Run:
     def __init__(self, cast: Cast, seating: Seating, duration_s: float, rng: np.random.Generator) -> None:
         self.occasions, self.location, self.triggers = cast.occasions, cast.locations, cast.triggers
-        self.seating, self.world_s, self.rng = seating, duration_s, rng
+        self.seating, self.world_s, self.rng, self.awaited = seating, duration_s, rng, cast.awaited
+        self.venue = Venue(seating.environment, seating.places, seating.walkable)
         self.services = Services(seating.places)
-        places = seating.environment.locations
-        self.entrances = [i for i, place in enumerate(places) if place.category is Category.ENTRANCE]
-        solid = is_solid(seating.environment)
-        self.ways_out = {
-            i for i, p in enumerate(places) if i in self.entrances or (p.category is Category.BUILDING and solid[i])
-        }
-        """Where people come into sight and go out of it; a room is only walked into."""
         actions = np.array([ACTION_INDEX[o.action] for o in self.occasions])
         categories = np.array([CATEGORY_INDEX[o.category] for o in self.occasions])
         self.lasts_s: list[float] = sample_durations(actions, categories, rng).tolist()
@@ -86,32 +73,43 @@ class _Run:
         while self.heap:
             ready_s, number = heapq.heappop(self.heap)
             self._hold(self.occasions[number], ready_s)
-        return tuple(self._close(life) for life in self.lives)
+        return tuple(self._close(agent) for agent in range(len(self.lives)))
 
     def _lives(self) -> list[Life]:
         rows = rows_of(self.occasions)
-        n_groups = self.occasions[-1].group + 1
-        speeds_mps = np.clip(self.rng.normal(1.3, 0.2, size=n_groups), 0.8, 1.8).tolist()
-        spread_s = self.rng.uniform(0, ARRIVALS * self.world_s, size=n_groups).tolist()
-        firsts = {agent: self.occasions[row[0]] for agent, row in rows.items()}
-        comes_in = {first.group for first in firsts.values() if first.action is Action.ENTER_EXIT}
-        lives = []
-        for agent in range(len(rows)):
-            group = firsts[agent].group
-            begin_s = spread_s[group] if group in comes_in else 0.0
-            life = Life(group, begin_s, speeds_mps[group], rows[agent])
-            life.workplace = self._workplace(life)
-            lives.append(life)
-        return lives
+        stretch_s = [MOST_STRETCH_S * self._is_elastic(o.action, o.number) for o in self.occasions]
+        cast = Cast(self.occasions, self.location, self.triggers)
+        outline = Outline(cast, self.lasts_s, stretch_s, self.venue.ways_m)
+        staff = self._staff(rows)
+        timetable = outline.timetable(self.world_s, staff, self.rng)
+        self.lasts_s = list(timetable.lasts_s)
+        groups = [self.occasions[rows[agent][0]].group for agent in range(len(rows))]
+        speeds_mps = np.clip(self.rng.normal(1.3, 0.2, size=groups[-1] + 1), 0.8, 1.8).tolist()
+        return [
+            Life(group, comes_s, speeds_mps[group], rows[agent], staff.get(agent))
+            for agent, (group, comes_s) in enumerate(zip(groups, timetable.comes_s, strict=True))
+        ]
 
-    def _workplace(self, life: Life) -> int | None:
-        """The service where somebody works: there from the beginning, and for at least half of their doings."""
-        first = self.occasions[life.row[0]]
-        place = self.location[first.number]
-        if life.begin_s > 0 or first.action in (Action.QUEUE, Action.ENTER_EXIT) or not self._serves(place):
-            return None
-        n_there = sum(self.location[number] == place for number in life.row)
-        return place if 2 * n_there >= len(life.row) else None
+    def _is_elastic(self, action: Action, number: int) -> bool:
+        """Whether a doing lasts as long as there is time; nobody takes a counter for longer than they need it."""
+        return action in _ELASTIC and not (
+            action is Action.OBJECT_INTERACT and self.venue.serves(self.location[number])
+        )
+
+    def _staff(self, rows: Mapping[int, Sequence[int]]) -> dict[int, int]:
+        """Who works at which service: from the beginning, for at least half of their doings; no more than it holds."""
+        staff: dict[int, int] = {}
+        n_at_work: Counter[int] = Counter()
+        for agent in range(len(rows)):
+            first = self.occasions[rows[agent][0]]
+            place = self.location[first.number]
+            n_there = sum(self.location[number] == place for number in rows[agent])
+            begins_at_work = self.venue.serves(place) and first.action not in (Action.QUEUE, Action.ENTER_EXIT)
+            n_wanted = max(2, len(self.seating.places[place].service))
+            if begins_at_work and 2 * n_there >= len(rows[agent]) and n_at_work[place] < n_wanted:
+                staff[agent] = place
+                n_at_work[place] += 1
+        return staff
 
     # From offered to held.
 
@@ -141,32 +139,32 @@ class _Run:
         """About when somebody can be there; which slot they will have is not known yet."""
         if life.location == self.location[occasion.number]:
             return life.end_s
-        return self._arrive_s(life, occasion, door)
+        return self._arrive_s(life, occasion, door, self.venue.gate(door)[1])
 
-    def _arrive_s(self, life: Life, occasion: Occasion, slot: Slot) -> float:
-        """When somebody can be at a slot."""
+    def _arrive_s(self, life: Life, occasion: Occasion, slot: Slot, gate: Slot) -> float:
+        """When somebody can be at a slot; by way of the gate, if they have to come in first."""
         if life.seat is not None:
             return life.end_s + self._walk_s(life, life.seat.slot, slot)
         if self._must_come(life, occasion):
-            return life.begin_s + PASSAGE_S + self._walk_s(life, self._gate(slot)[1], slot)
-        return life.begin_s
+            return life.end_s + PASSAGE_S + self._walk_s(life, gate, slot)
+        return life.end_s
 
     def _walk_s(self, life: Life, start: Slot, end: Slot) -> float:
-        if start.position_m == end.position_m:
-            return 0.0
-        way_m = self.seating.walkable.distances([start.position_m], [end.position_m])[0, 0]
-        return float(way_m) / life.speed_mps
+        return self.venue.way_m(start, end) / life.speed_mps
 
     def _hold(self, occasion: Occasion, ready_s: float) -> None:
         """Finds slots and times of an occasion, and adds it to the rows of its people."""
         lives = [self.lives[agent] for agent in occasion.agents]
         seats = self._seats(occasion, lives, ready_s)
-        arrive_s = max(self._arrive_s(life, occasion, seat.slot) for life, seat in zip(lives, seats, strict=True))
+        gate = self.venue.gate(seats[0].slot)
+        arrive_s = max(
+            self._arrive_s(life, occasion, seat.slot, gate[1]) for life, seat in zip(lives, seats, strict=True)
+        )
         start_s, end_s = self._span(occasion, lives, seats, max(arrive_s, self._trigger_s(occasion)))
-        self._draw_out(lives, seats, start_s)
+        self._draw_out(occasion, seats, start_s)
         for agent, life, seat in zip(occasion.agents, lives, seats, strict=True):
             if self._must_come(life, occasion):
-                self._come(life, seat.slot, start_s)
+                self._come(life, gate, seat.slot, start_s)
             partners = tuple(other for other in occasion.agents if other != agent)
             self._add(life, occasion, seat, start_s, end_s, partners)
         if occasion.is_last:
@@ -181,7 +179,7 @@ class _Run:
     ) -> None:
         appears = not life.activities
         # who comes in is not seen before; who is there from the beginning waits in sight
-        leave_s = (start_s if life.begin_s > 0 or self._passes(occasion) else 0.0) if appears else life.end_s
+        leave_s = (0.0 if life.comes_s is None else start_s) if appears else life.end_s
         if life.seat is not None and life.seat is not seat:
             life.seat.until_s = life.end_s
         location = self.location[occasion.number]
@@ -194,21 +192,16 @@ class _Run:
     # Coming, going, and the time between.
 
     def _must_come(self, life: Life, occasion: Occasion) -> bool:
-        """Whether somebody's group comes in, and so they do too, though no step of theirs says so."""
-        return life.seat is None and life.begin_s > 0 and not self._passes(occasion)
+        """Whether somebody has to come in first, though no step of theirs says so."""
+        return (
+            life.seat is None
+            and life.comes_s is not None
+            and not self.venue.is_passage(occasion.action, self.location[occasion.number])
+        )
 
-    def _passes(self, occasion: Occasion) -> bool:
-        """Whether people come into sight or go out of it."""
-        return occasion.action is Action.ENTER_EXIT and self.location[occasion.number] in self.ways_out
-
-    def _gate(self, near: Slot) -> tuple[int, Slot]:
-        """The entrance nearest to a slot."""
-        doors = [(i, self.seating.places[i].door) for i in self.entrances]
-        return min(doors, key=lambda door: math.dist(door[1].position_m, near.position_m))
-
-    def _come(self, life: Life, slot: Slot, start_s: float) -> None:
+    def _come(self, life: Life, gate: tuple[int, Slot], slot: Slot, start_s: float) -> None:
         """Lets somebody come in just in time for their first doing."""
-        entrance, door = self._gate(slot)
+        entrance, door = gate
         pass_s = max(0.0, start_s - self._walk_s(life, door, slot) - PASSAGE_S)
         self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), pass_s, pass_s + PASSAGE_S)
 
@@ -216,7 +209,7 @@ class _Run:
         """Adds an activity that no step asked for."""
         location, seat = where
         leave_s = life.end_s if life.activities else start_s
-        if life.seat is not None:
+        if life.seat is not None and life.seat is not seat:
             life.seat.until_s = life.end_s
         life.activities.append(
             Activity(action, location, seat.slot, leave_s, start_s, end_s, self.n_occasions, implied=True)
@@ -224,42 +217,75 @@ class _Run:
         self.n_occasions += 1
         life.seat, life.location = seat, location
 
-    def _draw_out(self, lives: Sequence[Life], seats: Sequence[Seat], start_s: float) -> None:
+    def _draw_out(self, occasion: Occasion, seats: Sequence[Seat], start_s: float) -> None:
         """Draws out what people did before, where it lasts as long as there is time, until they need to go."""
-        must_go_s: dict[int, list[tuple[Life, float]]] = {}
-        for life, seat in zip(lives, seats, strict=True):
+        must_go_s: dict[int, dict[int, float]] = {}
+        for agent, seat in zip(occasion.agents, seats, strict=True):
+            life = self.lives[agent]
             if life.activities and life.seat is not None:
                 go_s = start_s - self._walk_s(life, life.seat.slot, seat.slot)
-                must_go_s.setdefault(life.activities[-1].occasion, []).append((life, go_s))
+                must_go_s.setdefault(life.activities[-1].occasion, {})[agent] = go_s
         for together in must_go_s.values():
-            last = together[0][0].activities[-1]
-            everybody = len(together) == 1 + len(last.partners)
-            end_s = min(last.end_s + MOST_STRETCH_S, *(go_s for _, go_s in together), math.inf)
-            if everybody and last.action in _ELASTIC and end_s > last.end_s and not self._is_service_slot(last):
-                for life, _ in together:
-                    life.activities[-1] = replace(life.activities[-1], end_s=end_s)
+            last = self.lives[min(together)].activities[-1]
+            end_s = min(last.end_s + MOST_STRETCH_S, *together.values(), math.inf)
+            if last.action not in _ELASTIC or end_s <= last.end_s or self.venue.is_service_slot(last):
+                continue
+            if len(together) == 1 + len(last.partners) and last.occasion not in self.awaited:
+                for agent in together:
+                    self.lives[agent].activities[-1] = replace(self.lives[agent].activities[-1], end_s=end_s)
+            elif end_s > last.end_s + WORTH_A_MENTION_S:
+                self._stay_on(sorted(together), end_s)
 
-    def _close(self, life: Life) -> Person:
-        """Lets people stay at what they do last, if the world ends soon or they work there; sends the others home."""
+    def _stay_on(self, agents: Sequence[int], end_s: float) -> None:
+        """Lets people go on for a while with what they did, without those who have gone."""
+        for agent in agents:
+            row = self.lives[agent].activities
+            last, others = row[-1], tuple(other for other in agents if other != agent)
+            action = Action.WAIT if last.action in _TO_EACH_OTHER and not others else last.action
+            row.append(
+                Activity(
+                    action, last.location, last.slot, last.end_s, last.end_s, end_s, self.n_occasions, others, True
+                )
+            )
+        self.n_occasions += 1
+
+    def _close(self, agent: int) -> Person:
+        """Lets people stay at what they do last, if the world ends soon, or work on; sends the others home."""
+        life = self.lives[agent]
         last = life.activities[-1]
-        leaves = last.action is Action.ENTER_EXIT and last.location in self.ways_out
-        if not leaves and self._lingers(life, last):
-            life.activities[-1] = replace(last, end_s=max(last.end_s, self.world_s))
-        elif not leaves:
-            entrance, door = self._gate(last.slot)
+        leaves = self.venue.is_passage(last.action, last.location)
+        if leaves or last.end_s >= self.world_s:
+            pass
+        elif life.workplace is not None:
+            self._work_on(life, life.workplace)
+        elif self._lingers(last):
+            life.activities[-1] = replace(last, end_s=self.world_s)
+        else:
+            # who did the last thing together leaves by one door
+            leader = self.lives[min((agent, *last.partners))].activities
+            together = next(a.slot for a in leader if a.occasion == last.occasion)
+            entrance, door = self.venue.gate(together)
             there_s = last.end_s + self._walk_s(life, last.slot, door)
-            leaves = there_s < self.world_s
-            if leaves:
+            if leaves := there_s < self.world_s:
                 self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), there_s, there_s + PASSAGE_S)
         return Person(life.group, life.speed_mps, tuple(life.activities), leaves)
 
-    def _lingers(self, life: Life, last: Activity) -> bool:
-        if life.workplace is None and self.world_s - last.end_s > MOST_STRETCH_S:
-            return False
-        if last.action not in _ELASTIC or self._is_service_slot(last):
+    def _work_on(self, life: Life, workplace: int) -> None:
+        """Lets staff who have done what was asked of them go on with their work to the end."""
+        end_s, seat = life.end_s, life.seat
+        if seat is None or life.location != workplace:
+            seat = self.seating.near(workplace, self.venue.behind(workplace), end_s)
+        back_s = end_s + self._walk_s(life, life.activities[-1].slot, seat.slot)
+        if back_s < self.world_s:
+            self._imply(life, Action.OBJECT_INTERACT, (workplace, seat), back_s, self.world_s)
+
+    def _lingers(self, last: Activity) -> bool:
+        """Whether the world ends soon enough to stay at the last thing to the end, and all who share it do."""
+        soon = self.world_s - last.end_s <= MOST_STRETCH_S and last.occasion not in self.awaited
+        if not soon or last.action not in _ELASTIC or self.venue.is_service_slot(last):
             return False
         others = [self.lives[agent] for agent in last.partners]
-        return all(o.activities[-1].occasion == last.occasion and o.workplace == life.workplace for o in others)
+        return all(o.activities[-1].occasion == last.occasion and o.workplace is None for o in others)
 
     # Slots.
 
@@ -300,7 +326,7 @@ class _Run:
         if there:
             return [self.seating.near(location, there[0].slot.position_m, from_s) for _ in range(n)]
         if lives[0].workplace == location:
-            return [self.seating.near(location, self._behind(location), from_s) for _ in range(n)]
+            return [self.seating.near(location, self.venue.behind(location), from_s) for _ in range(n)]
         is_table = self.seating.environment.locations[location].category is Category.FURNITURE
         if n > 1 and occasion.action in (Action.DISCUSS, Action.MEET) and not is_table:
             return self.seating.around(location, n, from_s)
@@ -309,7 +335,7 @@ class _Run:
     def _passages(self, location: int, n: int) -> list[Seat]:
         """Points of an entrance, or the door of anything else; nobody stays there, so nobody holds them."""
         place = self.seating.places[location]
-        if location not in self.entrances:
+        if location not in self.venue.entrances:
             return [Seat(place.door)] * n
         spots = [place.spots[i] for i in self.rng.integers(len(place.spots), size=n).tolist()]
         return [Seat(Slot(spot.position_m, place.door.facing_rad)) for spot in spots]
@@ -319,33 +345,19 @@ class _Run:
         if life.seat is None or life.location != location or action in _ROAMING:
             return False
         last = life.activities[-1]
-        return last.action not in (Action.QUEUE, Action.ENTER_EXIT) and not self._is_service_slot(last)
-
-    def _behind(self, location: int) -> tuple[float, float]:
-        """The far side of a counter, where staff stand."""
-        x, y = self.seating.environment.locations[location].position_m
-        service = self.seating.places[location].service
-        at_x, at_y = service[len(service) // 2].position_m
-        return 2 * x - at_x, 2 * y - at_y
+        return last.action not in (Action.QUEUE, Action.ENTER_EXIT) and not self.venue.is_service_slot(last)
 
     # Services.
-
-    def _serves(self, location: int) -> bool:
-        category = self.seating.environment.locations[location].category
-        return category in (Category.SERVICE_AREA, Category.ITEM) and bool(self.seating.places[location].service)
 
     def _is_service(self, occasion: Occasion) -> bool:
         """Whether customers use a service, or somebody alone talks to its staff."""
         alone = len(occasion.agents) == 1 and occasion.action is Action.DISCUSS
         used = alone or occasion.action is Action.OBJECT_INTERACT
-        return used and self._serves(self.location[occasion.number]) and bool(self._customers(occasion))
+        return used and self.venue.serves(self.location[occasion.number]) and bool(self._customers(occasion))
 
     def _customers(self, occasion: Occasion) -> list[int]:
         place = self.location[occasion.number]
         return [agent for agent in occasion.agents if self.lives[agent].workplace != place]
-
-    def _is_service_slot(self, activity: Activity) -> bool:
-        return any(activity.slot is slot for slot in self.seating.places[activity.location].service)
 
     def _span(
         self, occasion: Occasion, lives: Sequence[Life], seats: Sequence[Seat], arrive_s: float
@@ -359,9 +371,11 @@ class _Run:
                 n_customers = len(self._customers(service))
                 turn = self.services.turn(service.number, location, n_customers, end_s, self.lasts_s[service.number])
                 end_s = turn.start_s
-                front = self.services.slots(service.number, location)[0]
-                way_s = max(self._walk_s(life, seat.slot, front) for life, seat in zip(lives, seats, strict=True))
+                counter = self.services.slots(service.number, location)
+                way_s = max(self._walk_s(lives[0], seat.slot, slot) for seat in seats for slot in counter)
                 self.services.keep(service.number, location, end_s + way_s + self.lasts_s[service.number])
+            else:
+                end_s = max(end_s, self.services.head_s(location, arrive_s))
             self.services.stand(location, len(occasion.agents), arrive_s, end_s)
             return arrive_s, end_s
         if self._is_service(occasion):

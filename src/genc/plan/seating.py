@@ -17,6 +17,8 @@ from genc.scenario.scenario import Environment
 ELBOW_M = 0.6
 _TRIES = 12
 """Spots looked at before the nearest to the company is taken."""
+_MARGINS_M = (0.0, 0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+"""Where all spots of a place are taken, people stand round it, further and further out."""
 
 
 @dataclass
@@ -34,25 +36,24 @@ class Seating:
         self, environment: Environment, places: Sequence[Places], walkable: Walkable, rng: np.random.Generator
     ) -> None:
         self.environment, self.places, self.walkable, self.rng = environment, places, walkable, rng
-        self._held: defaultdict[tuple[int, int], dict[tuple[float, float], Seat]] = defaultdict(dict)
-        """For each square metre, the last to have taken each point in it: they stay longer than all before them."""
+        self._near: defaultdict[tuple[int, int], dict[tuple[float, float], Seat]] = defaultdict(dict)
+        """For each square metre, who last took each point in it or next to it: they stay longest."""
 
     def is_free(self, position_m: tuple[float, float], from_s: float) -> bool:
         """Whether nobody holds a seat within arm's length at `from_s` or later."""
         x, y = position_m
-        column, row = math.floor(x), math.floor(y)
-        for i in (column - 1, column, column + 1):
-            for j in (row - 1, row, row + 1):
-                for at_m, seat in self._held.get((i, j), {}).items():
-                    if seat.until_s > from_s and math.dist(position_m, at_m) < ELBOW_M:
-                        return False
+        for at_m, seat in self._near.get((math.floor(x), math.floor(y)), {}).items():
+            if seat.until_s > from_s and math.dist(position_m, at_m) < ELBOW_M:
+                return False
         return True
 
     def hold(self, slot: Slot) -> Seat:
         """Takes a slot until further notice."""
         seat = Seat(slot)
-        x, y = slot.position_m
-        self._held[math.floor(x), math.floor(y)][slot.position_m] = seat
+        column, row = math.floor(slot.position_m[0]), math.floor(slot.position_m[1])
+        for i in (column - 1, column, column + 1):
+            for j in (row - 1, row, row + 1):
+                self._near[i, j][slot.position_m] = seat
         return seat
 
     def any_spot(self, location: int, from_s: float) -> Seat:
@@ -69,8 +70,9 @@ class Seating:
         for spot in spots:
             if self.is_free(spot.position_m, from_s):
                 return self.hold(spot)
-        for n in (8, 64, 512):
-            for spot in more_spots(self.environment.locations[location], self.walkable, n, self.rng):
+        for margin_m in _MARGINS_M:
+            place = self.environment.locations[location]
+            for spot in more_spots(place, self.walkable, margin_m, _TRIES, self.rng):
                 if self.is_free(spot.position_m, from_s):
                     return self.hold(spot)
         return self.hold(spot)

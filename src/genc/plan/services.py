@@ -53,6 +53,10 @@ class Services:
         ahead = sum(until_s > from_s for until_s in self._in_line_until_s[location])
         return [positions[min(ahead + i, len(positions) - 1)] for i in range(n)]
 
+    def head_s(self, location: int, from_s: float) -> float:
+        """When somebody who comes to the end of a line is at its head."""
+        return max(self._in_line_until_s[location], default=from_s)
+
     def stand(self, location: int, n: int, from_s: float, until_s: float) -> None:
         """Lets n people stand in line."""
         still = [s for s in self._in_line_until_s[location] if s > from_s]

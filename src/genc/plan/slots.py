@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
+from scipy.spatial.distance import cdist
 
 from genc.plan.plan import Slot
 from genc.plan.walkable import BODY_RADIUS_M, Walkable, box_of, is_solid
@@ -67,20 +68,16 @@ def circle(location: Location, walkable: Walkable, centre_m: tuple[float, float]
     return tuple(_facing(p, middle) for p in points)
 
 
-def more_spots(location: Location, walkable: Walkable, n: int, rng: np.random.Generator) -> tuple[Slot, ...]:
-    """n free points within the location, or round it where it is too small or solid."""
+def more_spots(
+    location: Location, walkable: Walkable, margin_m: float, n: int, rng: np.random.Generator
+) -> tuple[Slot, ...]:
+    """Up to n free points within a location and that much ground round it; at least one."""
     x0, y0, x1, y1 = box_of(location)
-    found: list[Floats] = []
-    for margin_m in (0.0, 1.0, 2.5, 5.0, 10.0):
-        low, high = np.array([x0, y0]) - margin_m, np.array([x1, y1]) + margin_m
-        points = rng.uniform(low, high, size=(4 * n + 8, 2))
-        found.extend(points[walkable.free(points)])
-        if len(found) >= n:
-            break
-    else:
-        found.extend(walkable.snap(rng.uniform([x0, y0], [x1, y1], size=(n, 2))))
-    facing = rng.uniform(-math.pi, math.pi, size=n)
-    return tuple(Slot(_pair(p), float(a)) for p, a in zip(found[:n], facing, strict=True))
+    tried = rng.uniform([x0 - margin_m, y0 - margin_m], [x1 + margin_m, y1 + margin_m], size=(n, 2))
+    found = tried[walkable.free(tried)]
+    facing = rng.uniform(-math.pi, math.pi, size=n).tolist()
+    points = found if len(found) else walkable.snap(tried[:1])
+    return tuple(Slot(_pair(point), angle) for point, angle in zip(points, facing, strict=False))
 
 
 def _places(environment: Environment, index: int, solid: bool, middle: Floats, walkable: Walkable) -> Places:
@@ -89,7 +86,7 @@ def _places(environment: Environment, index: int, solid: bool, middle: Floats, w
     service = _service(place, solid, middle, walkable)
     head = service[len(service) // 2] if service else door
     spots = _spots(place, solid, service, walkable)
-    line = _line(place, head, bool(service), walkable)
+    line = _line(place, head, service, walkable)
     if not spots:
         spots = (_facing(walkable.snap([place.position_m])[0], np.array(place.position_m)),)
     return Places(service, line, spots, door)
@@ -162,31 +159,32 @@ def _spots(place: Location, solid: bool, service: Sequence[Slot], walkable: Walk
         points = points[taken.query(points)[0] >= APART_M]
     kept = _spread(points, MOST_SPOTS)
     if place.category in (Category.ROOM, Category.OUTDOOR_AREA, Category.ENTRANCE, Category.BUILDING) and not solid:
-        return tuple(Slot(_pair(p), 2 * math.pi * float(_golden(i)) - math.pi) for i, p in enumerate(kept))
+        facing = 2 * math.pi * _golden(np.arange(len(kept))) - math.pi
+        return tuple(Slot(_pair(p), angle) for p, angle in zip(kept, facing.tolist(), strict=True))
     return tuple(_facing(p, centre) for p in kept)
 
 
-def _line(place: Location, head: Slot, served: bool, walkable: Walkable) -> tuple[Slot, ...]:
+def _line(place: Location, head: Slot, service: Sequence[Slot], walkable: Walkable) -> tuple[Slot, ...]:
     """A row of slots backwards from the head; it turns where it meets an obstacle."""
     centre, point = np.array(place.position_m), np.array(head.position_m)
+    served = [np.array(slot.position_m) for slot in service]
     away = -np.array([math.cos(head.facing_rad), math.sin(head.facing_rad)])
-    points = [point + 0.95 * away] if served else [point]
-    if not walkable.free(points[0])[0]:
-        points = [walkable.snap(points[0])[0]]
+    points = [point + 0.95 * away] if service else [point]
+    if not walkable.free(points[0])[0] or (served and cdist(points, served).min() < APART_M):
+        points = _nearby(walkable, [*served, point], 1) or [walkable.snap(points[0])[0]]
     quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
     while len(points) < LONGEST_LINE:
         turns = (away, quarter @ away, -quarter @ away)
         steps = np.array([points[-1] + LINE_SPACING_M * t for t in turns])
-        fits = walkable.free(steps) & (np.linalg.norm(steps[:, None] - np.array(points)[None], axis=2).min(1) > APART_M)
-        fits &= np.linalg.norm(steps - point, axis=1) > 0.6
+        fits = walkable.free(steps) & (cdist(steps, [*points, *served]).min(1) > APART_M)
         if not fits.any():
             break
         chosen = int(np.argmax(fits))
         away = turns[chosen]
         points.append(steps[chosen])
     if len(points) < 12:
-        points.extend(_nearby(walkable, points, 12 - len(points)))
-    ahead = [centre if served else point, *points[:-1]]
+        points.extend(_nearby(walkable, [*served, *points], 12 - len(points)))
+    ahead = [centre if service else point, *points[:-1]]
     return tuple(_facing(p, target) for p, target in zip(points, ahead, strict=True))
 
 
@@ -252,7 +250,7 @@ def _grid(place: Location, spacing_m: float) -> Floats:
     return points + wobble * (spacing - APART_M) if spacing > APART_M else points
 
 
-def _golden(i: NDArray[np.int64] | int) -> NDArray[np.float64]:
+def _golden(i: NDArray[np.int64]) -> NDArray[np.float64]:
     """Numbers in [0, 1) that look random and are evenly spread."""
     return np.asarray(i * 0.6180339887498949 % 1.0)
 
