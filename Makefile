@@ -18,7 +18,7 @@ export TEXT
 
 populate: $(READY)
 	$(BIN)/genc populate "$$TEXT" --agents $(AGENTS) --out $(OUT)
-	$(BIN)/genc story $(OUT) --group 17
+	$(BIN)/genc story $(OUT) --group 1
 
 test: $(READY)
 	$(BIN)/pytest
