@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 import small
-import torch
 
 from genc.errors import CheckpointError, DatasetError, OutputError
 from genc.learn import build
@@ -47,14 +46,6 @@ def stop_at(monkeypatch):
 
     yield arm
     monkeypatch.undo()
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _one_thread():
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from genc.graph.codec import decode
+from genc.graph.describe import action_frequencies
 from genc.learn.dataset import Dataset
 from genc.model.condition import N_ACTIONS, Conditions
 from genc.model.structure_decoder import Trace
@@ -111,9 +113,6 @@ def _ragged(rows: Sequence[tuple[int, ...]]) -> Tensor:
 
 def _frequencies(dataset: Dataset, rows: NDArray[np.int64]) -> Tensor:
     """`[n, 13]` the share of each action among the nodes of each group."""
-    from genc.graph.codec import decode
-    from genc.graph.describe import action_frequencies
-
     out = torch.zeros(len(rows), N_ACTIONS)
     for i, g in enumerate(rows):
         out[i] = torch.tensor(action_frequencies(decode(dataset.tokens[g])))
