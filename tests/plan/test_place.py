@@ -12,6 +12,7 @@ from genc.plan.occasion import occasions_of
 from genc.plan.place import SUBSTITUTES, WAY_IN, Chooser, with_way_in
 from genc.plan.plan import CrowdPlan
 from genc.plan.slots import places_of
+from genc.plan.venue import Venue
 from genc.plan.walkable import Walkable
 from genc.scenario.record import Record
 from genc.scenario.scenario import Environment
@@ -23,7 +24,7 @@ PLACES = places_of(HALL, GROUND)
 
 
 def _chosen(groups: list[list[Record]], seed: int = 0, affinity: np.ndarray | None = None) -> list[str]:
-    chooser = Chooser(HALL, PLACES, GROUND, affinity)
+    chooser = Chooser(Venue(HALL, PLACES, GROUND), affinity)
     indices, _ = chooser.choose(occasions_of(groups), np.random.default_rng(seed))
     return [HALL.locations[i].name for i in indices]
 

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from genc.plan.seating import ELBOW_M, Seating
 from genc.plan.services import Services
 from genc.plan.slots import places_of
+from genc.plan.venue import Venue
 from genc.plan.walkable import Walkable
 from genc.scenario.record import Record, Step
 from genc.words.vocabulary import Action, Category
@@ -64,7 +65,7 @@ def test_who_stands_in_line_for_nothing_in_particular_stands_until_they_are_at_i
 
 @given(st.lists(st.tuples(st.integers(0, len(PLACES) - 1), st.integers(1, 5)), max_size=12), st.integers(0, 99))
 def test_nobody_is_seated_within_an_arms_length_of_somebody(parties, seed):
-    seating = Seating(HALL, PLACES, GROUND, np.random.default_rng(seed))
+    seating = Seating(Venue(HALL, PLACES, GROUND), np.random.default_rng(seed))
     held = [seat for location, n in parties for seat in seating.around(location, n, 0.0)]
     points = [seat.slot.position_m for seat in held]
     assert all(math.dist(a, b) >= ELBOW_M - 1e-9 for a, b in itertools.combinations(points, 2))
@@ -72,7 +73,7 @@ def test_nobody_is_seated_within_an_arms_length_of_somebody(parties, seed):
 
 
 def test_a_seat_is_free_again_when_its_time_is_over():
-    seating = Seating(HALL, PLACES, GROUND, np.random.default_rng(0))
+    seating = Seating(Venue(HALL, PLACES, GROUND), np.random.default_rng(0))
     seat = seating.any_spot(KIOSK, 0.0)
     assert not seating.is_free(seat.slot.position_m, 1e6)
     seat.until_s = 40.0

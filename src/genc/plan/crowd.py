@@ -16,6 +16,7 @@ from genc.plan.plan import CrowdPlan
 from genc.plan.schedule import schedule
 from genc.plan.seating import Seating
 from genc.plan.slots import places_of
+from genc.plan.venue import Venue
 from genc.plan.walkable import Walkable
 from genc.scenario.record import Record
 from genc.scenario.scenario import Environment
@@ -56,14 +57,14 @@ def plan_crowd(
         )
     layout = with_way_in(environment)
     walkable = Walkable.of(layout)
-    places = places_of(layout, walkable)
+    venue = Venue(layout, places_of(layout, walkable), walkable)
     affinity = request.affinity
     if affinity is not None and len(layout.locations) > affinity.shape[1]:
         affinity = np.pad(affinity, ((0, 0), (0, len(layout.locations) - affinity.shape[1])))
     occasions = occasions_of(groups)
-    locations, notes = Chooser(layout, places, walkable, affinity).choose(occasions, rng)
+    locations, notes = Chooser(venue, affinity).choose(occasions, rng)
     if layout is not environment:
         notes.insert(0, f"this environment has no entrance: a {WAY_IN} was added at its edge")
     cast = Cast(occasions, locations, request.triggers)
-    people = schedule(cast, Seating(layout, places, walkable, rng), request.duration_s, rng)
+    people = schedule(cast, Seating(venue, rng), request.duration_s, rng)
     return CrowdPlan(layout, people, request.duration_s, request.captions, (*request.notes, *notes))

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genc.plan.occasion import Occasion
-from genc.plan.slots import Places
-from genc.plan.walkable import Walkable
+from genc.plan.venue import Venue
 from genc.scenario.scenario import Environment, Location
 from genc.words.vocabulary import Action, Category
 
@@ -63,17 +62,14 @@ class Chooser:
         affinity: `[n_groups, n_locations]` how well each location's name suits each group's text, or None.
     """
 
-    environment: Environment
-    places: Sequence[Places]
-    walkable: Walkable
+    venue: Venue
     affinity: NDArray[np.float64] | None
 
     def choose(self, occasions: Sequence[Occasion], rng: np.random.Generator) -> tuple[list[int], list[str]]:
         """The location index of every occasion, and a note for every category that had to be replaced."""
         candidates = {category: self._candidates(category) for category in {o.category for o in occasions}}
-        doors = np.array([place.door.position_m for place in self.places])
-        walk = (self.walkable.distances(doors, doors) / _WALK_M).tolist()
-        room = [max(1, len(place.service) or len(place.spots) // 4) for place in self.places]
+        walk = (self.venue.ways_m / _WALK_M).tolist()
+        room = [max(1, len(place.service) or len(place.spots) // 4) for place in self.venue.places]
         load: Counter[int] = Counter()
         chosen: list[int] = []
         for group in _by_group(occasions):
@@ -86,22 +82,22 @@ class Chooser:
         return chosen, self._notes(candidates)
 
     def _options(self, occasion: Occasion, candidates: dict[Category, list[int]]) -> list[int]:
-        if occasion.wished is not None and occasion.wished in self.environment:
-            return [self.environment.locations.index(self.environment[occasion.wished])]
+        if occasion.wished is not None and occasion.wished in self.venue.environment:
+            return [self.venue.environment.locations.index(self.venue.environment[occasion.wished])]
         found = candidates[occasion.category]
-        lacking = self.environment.locations[found[0]].category is not occasion.category
+        lacking = self.venue.environment.locations[found[0]].category is not occasion.category
         # who goes out or comes in, and lacks the place for it, uses an entrance
         return self._candidates(Category.ENTRANCE) if lacking and occasion.action is Action.ENTER_EXIT else found
 
     def _candidates(self, category: Category) -> list[int]:
         for wanted in (category, *SUBSTITUTES[category]):
-            found = [i for i, place in enumerate(self.environment.locations) if place.category is wanted]
+            found = [i for i, place in enumerate(self.venue.environment.locations) if place.category is wanted]
             if found:
                 return found
-        return list(range(len(self.places)))
+        return list(range(len(self.venue.places)))
 
     def _taste(self, group: int, rng: np.random.Generator) -> list[float]:
-        taste = -_CHANCE * rng.gumbel(size=len(self.places))
+        taste = -_CHANCE * rng.gumbel(size=len(self.venue.places))
         if self.affinity is not None:
             taste = taste - _MEANING * self.affinity[group]
         return [float(t) for t in taste]
@@ -109,7 +105,7 @@ class Chooser:
     def _notes(self, candidates: dict[Category, list[int]]) -> list[str]:
         notes = []
         for category, found in sorted(candidates.items()):
-            stand_in = self.environment.locations[found[0]].category
+            stand_in = self.venue.environment.locations[found[0]].category
             if stand_in is not category:
                 notes.append(f"this environment has no {category}: {stand_in} stands in for it")
         return notes

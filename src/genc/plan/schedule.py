@@ -20,7 +20,6 @@ from genc.plan.occasion import Occasion, rows_of
 from genc.plan.plan import Activity, Person, Slot
 from genc.plan.seating import Seat, Seating, towards
 from genc.plan.services import Services
-from genc.plan.venue import Venue
 from genc.scenario.durations import sample_durations
 from genc.words.vocabulary import ACTION_INDEX, CATEGORY_INDEX, Action, Category
 
@@ -55,8 +54,8 @@ class _Run:
     def __init__(self, cast: Cast, seating: Seating, duration_s: float, rng: np.random.Generator) -> None:
         self.occasions, self.location, self.triggers = cast.occasions, cast.locations, cast.triggers
         self.seating, self.world_s, self.rng, self.awaited = seating, duration_s, rng, cast.awaited
-        self.venue = Venue(seating.environment, seating.places, seating.walkable)
-        self.services = Services(seating.places)
+        self.venue = seating.venue
+        self.services = Services(self.venue.places)
         actions = np.array([ACTION_INDEX[o.action] for o in self.occasions])
         categories = np.array([CATEGORY_INDEX[o.category] for o in self.occasions])
         self.lasts_s: list[float] = sample_durations(actions, categories, rng).tolist()
@@ -105,7 +104,7 @@ class _Run:
             place = self.location[first.number]
             n_there = sum(self.location[number] == place for number in rows[agent])
             begins_at_work = self.venue.serves(place) and first.action not in (Action.QUEUE, Action.ENTER_EXIT)
-            n_wanted = max(2, len(self.seating.places[place].service))
+            n_wanted = max(2, len(self.venue.places[place].service))
             if begins_at_work and 2 * n_there >= len(rows[agent]) and n_at_work[place] < n_wanted:
                 staff[agent] = place
                 n_at_work[place] += 1
@@ -124,7 +123,7 @@ class _Run:
         if trigger is not None and trigger not in self.event_end_s:
             self.on_hold.setdefault(trigger, []).append(number)
             return
-        door = self.seating.places[self.location[number]].door
+        door = self.venue.places[self.location[number]].door
         ready_s = max(self._ready_s(self.lives[agent], occasion, door) for agent in occasion.agents)
         heapq.heappush(self.heap, (max(ready_s, self._trigger_s(occasion)), number))
 
@@ -327,14 +326,14 @@ class _Run:
             return [self.seating.near(location, there[0].slot.position_m, from_s) for _ in range(n)]
         if lives[0].workplace == location:
             return [self.seating.near(location, self.venue.behind(location), from_s) for _ in range(n)]
-        is_table = self.seating.environment.locations[location].category is Category.FURNITURE
+        is_table = self.venue.environment.locations[location].category is Category.FURNITURE
         if n > 1 and occasion.action in (Action.DISCUSS, Action.MEET) and not is_table:
             return self.seating.around(location, n, from_s)
         return self.seating.together(location, n, from_s)
 
     def _passages(self, location: int, n: int) -> list[Seat]:
         """Points of an entrance, or the door of anything else; nobody stays there, so nobody holds them."""
-        place = self.seating.places[location]
+        place = self.venue.places[location]
         if location not in self.venue.entrances:
             return [Seat(place.door)] * n
         spots = [place.spots[i] for i in self.rng.integers(len(place.spots), size=n).tolist()]

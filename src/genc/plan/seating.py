@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from genc.plan.plan import Slot
-from genc.plan.slots import Places, circle, more_spots
-from genc.plan.walkable import Walkable
-from genc.scenario.scenario import Environment
+from genc.plan.slots import circle, more_spots
+from genc.plan.venue import Venue
 
 ELBOW_M = 0.6
 _TRIES = 12
@@ -32,10 +31,8 @@ class Seat:
 class Seating:
     """Hands out free slots. Calls must come in order of time."""
 
-    def __init__(
-        self, environment: Environment, places: Sequence[Places], walkable: Walkable, rng: np.random.Generator
-    ) -> None:
-        self.environment, self.places, self.walkable, self.rng = environment, places, walkable, rng
+    def __init__(self, venue: Venue, rng: np.random.Generator) -> None:
+        self.venue, self.rng = venue, rng
         self._near: defaultdict[tuple[int, int], dict[tuple[float, float], Seat]] = defaultdict(dict)
         """For each square metre, who last took each point in it or next to it: they stay longest."""
 
@@ -58,7 +55,7 @@ class Seating:
 
     def any_spot(self, location: int, from_s: float) -> Seat:
         """A free spot at a location, at random."""
-        spots = self.places[location].spots
+        spots = self.venue.places[location].spots
         for i in self.rng.integers(len(spots), size=_TRIES).tolist():
             if self.is_free(spots[i].position_m, from_s):
                 return self.hold(spots[i])
@@ -66,23 +63,23 @@ class Seating:
 
     def near(self, location: int, position_m: tuple[float, float], from_s: float) -> Seat:
         """The free spot of a location that is nearest to a point; new ground is found where all are taken."""
-        spots = sorted(self.places[location].spots, key=lambda spot: math.dist(spot.position_m, position_m))
+        spots = sorted(self.venue.places[location].spots, key=lambda spot: math.dist(spot.position_m, position_m))
         for spot in spots:
             if self.is_free(spot.position_m, from_s):
                 return self.hold(spot)
         for margin_m in _MARGINS_M:
-            place = self.environment.locations[location]
-            for spot in more_spots(place, self.walkable, margin_m, _TRIES, self.rng):
+            place = self.venue.environment.locations[location]
+            for spot in more_spots(place, self.venue.walkable, margin_m, _TRIES, self.rng):
                 if self.is_free(spot.position_m, from_s):
                     return self.hold(spot)
         return self.hold(spot)
 
     def around(self, location: int, n: int, from_s: float) -> list[Seat]:
         """n seats in a talking circle at a free place of a location; side by side where there is no such room."""
-        spots = self.places[location].spots
-        place = self.environment.locations[location]
+        spots = self.venue.places[location].spots
+        place = self.venue.environment.locations[location]
         for i in self.rng.integers(len(spots), size=_TRIES).tolist():
-            ring = circle(place, self.walkable, spots[i].position_m, n)
+            ring = circle(place, self.venue.walkable, spots[i].position_m, n)
             if all(self.is_free(slot.position_m, from_s) for slot in ring) and _apart(ring):
                 return [self.hold(slot) for slot in ring]
         return self.together(location, n, from_s)
