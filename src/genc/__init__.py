@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from genc.scenario.rehearse import rehearse as rehearse
     from genc.scenario.script import write_script as write_script
     from genc.words.brief import Brief as Brief
+    from genc.world.export import export_world as export_world
     from genc.world.story import tell_agent as tell_agent
     from genc.world.story import tell_group as tell_group
     from genc.world.world import World as World
@@ -46,6 +47,7 @@ _HOME = {
     "GraphSource": "model.source",
     "World": "world.world",
     "build_dataset": "learn.build",
+    "export_world": "world.export",
     "load_corpus": "scenario.corpus",
     "load_dataset": "learn.dataset",
     "load_generator": "model.checkpoint",

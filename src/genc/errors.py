@@ -11,6 +11,7 @@ Room: errors. In: nothing. Out: exceptions. May import: nothing.
     +-- CheckpointError       model weights are missing, damaged, or do not fit this version
     +-- WorldFileError        a world file is missing, cut short, or of another version
     +-- OutputError           a result cannot be written where it was asked for
+    +-- ExtraError            an optional part was asked for that is not installed
 
 A message says what was wrong, the value, where it came from, and what to do about it.
 """
@@ -58,3 +59,15 @@ class WorldFileError(GencError):
 
 class OutputError(GencError):
     """A place where nothing can be written."""
+
+
+class ExtraError(GencError):
+    """An optional part that is not installed.
+
+    Args:
+        wish: what was asked for.
+        extra: the extra of this package that brings it.
+    """
+
+    def __init__(self, wish: str, extra: str) -> None:
+        super().__init__(f"{wish} needs an extra that is not installed: pip install 'genc[{extra}]'")

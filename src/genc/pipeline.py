@@ -7,16 +7,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from importlib.util import find_spec
 
 import numpy as np
 
-from genc.errors import BriefError, LayoutError
+from genc.errors import BriefError, ExtraError, LayoutError
 from genc.graph.crowd_graph import CrowdGraph
 from genc.graph.weave import unfold
 from genc.model.checkpoint import load_generator
 from genc.model.generator import CodecGenerator
 from genc.motion.executor import Options, simulate
+from genc.motion.jupedsim_steering import JuPedSim
 from genc.motion.kinematic import Kinematic
+from genc.motion.steering import Steering
 from genc.plan.compose import compose
 from genc.plan.crowd import PlanRequest, plan_crowd
 from genc.plan.plan import CrowdPlan
@@ -33,6 +36,8 @@ MOST_AGENTS = 20_000
 MOST_MINUTES = 240.0
 MOST_EXTENT_M = 1000.0
 """Side of a layout: its ground is kept as a grid of small cells."""
+STEERINGS = {"kinematic": Kinematic, "jupedsim": JuPedSim}
+"""What moves people: shortest paths, through each other; or the collision-free speed model of the extra `jupedsim`."""
 GUIDANCE = 2.0
 """One sentence has to steer a whole crowd; at 1 the groups are as various as those that were learned."""
 UNFAMILIAR = (
@@ -50,6 +55,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     seed: int = 0,
     environment: Environment | None = None,
     generator: CodecGenerator | None = None,
+    steering: str = "kinematic",
 ) -> World:
     """A world with exactly `n_agents` people who live out the sentence; the same arguments give the same world.
 
@@ -59,13 +65,16 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
         minutes: length of the world.
         environment: the layout; by default that of the authored scenario nearest in meaning.
         generator: a trained generator; by default the one that comes with the package, with `GUIDANCE`.
+        steering: what moves the people, one of `STEERINGS`.
 
     Raises:
-        BriefError: for an empty sentence, an unknown theme, or a crowd or length out of range.
+        BriefError: for an empty sentence, an unknown theme or steering, or a crowd or length out of range.
+        ExtraError: for a steering that is not installed.
         LayoutError: for an environment in which nobody can be placed.
         CheckpointError, EncoderError: if the generator or its text encoder cannot be loaded.
     """
     check_request(text, n_agents, minutes)
+    check_steering(steering)
     authored = load_corpus(None if theme is None else [theme])
     generator = replace(load_generator(), guidance=GUIDANCE) if generator is None else generator
     for_groups, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
@@ -82,17 +91,21 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     )
     plan = plan_crowd([unfold(group) for group in groups], layout.environment, request, for_plan)
     made_with = {"theme": theme, "seed": seed, "model": generator.hash, "guidance": generator.guidance}
-    return play(plan, for_motion, {"text": text, **made_with})
+    return play(plan, for_motion, {"text": text, **made_with}, steering)
 
 
-def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:
+def stage(
+    scenario: Scenario, *, minutes: float = 10.0, seed: int = 0, steering: str = "kinematic"
+) -> World:
     """A world in which a hand-written scenario is played as written, without a model.
 
     Raises:
-        BriefError: for a length out of range.
+        BriefError: for a length out of range or an unknown steering.
+        ExtraError: for a steering that is not installed.
         LayoutError: for an environment in which nobody can be placed.
     """
     check_request(scenario.sentence, 1, minutes)
+    check_steering(steering)
     check_extent(scenario.environment)
     for_order, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
     rehearsal = rehearse(scenario, for_order)
@@ -102,15 +115,16 @@ def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0) -> World:
     ]
     request = PlanRequest(duration_s=60 * minutes, captions=rehearsal.captions, triggers=rehearsal.triggers)
     plan = plan_crowd(groups, scenario.environment, request, for_plan)
-    return play(plan, for_motion, {"text": scenario.sentence, "theme": scenario.theme, "seed": seed, "model": None})
+    made_with: Provenance = {"text": scenario.sentence, "theme": scenario.theme, "seed": seed, "model": None}
+    return play(plan, for_motion, made_with, steering)
 
 
-def play(plan: CrowdPlan, rng: np.random.Generator, provenance: Provenance) -> World:
+def play(plan: CrowdPlan, rng: np.random.Generator, provenance: Provenance, steering: str = "kinematic") -> World:
     """The world in which a plan is carried out."""
     ground = Walkable.of(plan.environment)
-    steering = Kinematic(len(plan.people), ground)
-    motion = simulate(plan, ground, places_of(plan.environment, ground), steering, Options(), rng)
-    return World(plan, motion, {**provenance, "steering": "kinematic"})
+    mover: Steering = STEERINGS[steering](len(plan.people), ground)
+    motion = simulate(plan, ground, places_of(plan.environment, ground), mover, Options(), rng)
+    return World(plan, motion, {**provenance, "steering": steering})
 
 
 def sample_groups(
@@ -127,6 +141,14 @@ def check_request(text: str, n_agents: int, minutes: float) -> None:
         raise BriefError(f"a crowd of {n_agents} cannot be made: ask for 1 to {MOST_AGENTS} agents")
     if not 0 < minutes <= MOST_MINUTES:
         raise BriefError(f"a world of {minutes} minutes cannot be made: ask for more than 0, at most {MOST_MINUTES:g}")
+
+
+def check_steering(steering: str) -> None:
+    """Raises `BriefError` for an unknown steering, `ExtraError` for one that is not installed."""
+    if steering not in STEERINGS:
+        raise BriefError(f"there is no steering {steering!r}; choose {' or '.join(STEERINGS)}")
+    if steering == "jupedsim" and find_spec("jupedsim") is None:
+        raise ExtraError("the steering 'jupedsim'", "jupedsim")
 
 
 def check_extent(environment: Environment) -> None:

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from small_world import ground
 
 from genc.motion.kinematic import Kinematic
+from genc.motion.steering import Target
 
 points = st.tuples(st.floats(-3.0, 44.0), st.floats(0.0, 25.0))
 
@@ -20,7 +21,7 @@ def test_a_walk_takes_as_long_as_its_shortest_path(start_m, goal_m, speed_mps):
     start, goal = ground().snap([start_m, goal_m])
     steering = Kinematic(1, ground())
     steering.add(0, (start[0], start[1]), speed_mps)
-    steering.set_target(0, (goal[0], goal[1]))
+    steering.set_target(0, Target((goal[0], goal[1])))
     n_steps = 0
     while steering.walking[0]:
         before = steering.positions_m[0].copy()
@@ -44,7 +45,7 @@ def test_many_walk_at_once_and_all_arrive():
     steering = Kinematic(n, ground())
     for agent in range(n):
         steering.add(agent, tuple(starts[agent]), 1.3)
-        steering.set_target(agent, tuple(goals[agent]))
+        steering.set_target(agent, Target(tuple(goals[agent])))
     for _ in range(1000):
         steering.step()
     assert not steering.walking.any()

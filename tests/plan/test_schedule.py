@@ -22,24 +22,22 @@ from genc.words.vocabulary import Action, Category
 GROUND = Walkable.of(HALL)
 PLACES = places_of(HALL, GROUND)
 KIOSK = HALL.locations.index(HALL["kiosk"])
-CUSTOMERS = st.lists(st.tuples(st.floats(0, 60), st.floats(1, 90), st.integers(1, 3)), min_size=1, max_size=25)
+CUSTOMERS = st.lists(st.tuples(st.floats(0, 60), st.floats(1, 90)), min_size=1, max_size=25)
 
 
 @given(CUSTOMERS)
 def test_turns_come_in_order_and_no_server_has_two_at_a_time(customers):
     services = Services(PLACES)
     now_s, turns = 0.0, []
-    for number, (pause_s, lasts_s, n_customers) in enumerate(customers):
+    for number, (pause_s, lasts_s) in enumerate(customers):
         now_s += pause_s
-        turn = services.turn(number, KIOSK, n_customers, now_s, lasts_s)
+        turn = services.turn(number, KIOSK, now_s, lasts_s)
         assert turn.start_s >= now_s
-        assert services.turn(number, KIOSK, n_customers, now_s + 99, lasts_s) == turn, "asked again, the same turn"
+        assert services.turn(number, KIOSK, now_s + 99, lasts_s) == turn, "asked again, the same turn"
         turns.append((turn, lasts_s))
     busy = defaultdict(list)
     for turn, lasts_s in turns:
-        assert len(set(turn.servers)) == len(turn.servers)
-        for server in turn.servers:
-            busy[server].append((turn.start_s, turn.start_s + lasts_s))
+        busy[turn.server].append((turn.start_s, turn.start_s + lasts_s))
     assert len(busy) <= len(PLACES[KIOSK].service)
     for spans in busy.values():
         assert all(end_s <= start_s for (_, end_s), (start_s, _) in itertools.pairwise(spans))

@@ -8,7 +8,7 @@ waits in sight; who is late is waited for, up to a limit.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,9 +19,9 @@ from genc.motion.motion import Motion, Status
 from genc.motion.occasion import Occasion, Row, occasions
 from genc.motion.spots import Spots, crowd_behind
 from genc.motion.stage import Stage
-from genc.motion.steering import Steering
-from genc.motion.stroll import LONGEST_PAUSE_S, PACE, Strolls
-from genc.plan.plan import Activity, CrowdPlan, Person, Slot
+from genc.motion.steering import Steering, Target
+from genc.motion.stroll import LONGEST_PAUSE_S, PACES, Strolls
+from genc.plan.plan import Activity, CrowdPlan, Person, Slot, begins_on_the_way
 from genc.plan.slots import Places
 from genc.plan.walkable import Walkable, is_solid
 from genc.words.vocabulary import Action, Category
@@ -29,9 +29,16 @@ from genc.words.vocabulary import Action, Category
 _SLOWEST = 4.0
 """How many times as long as the straight way a walk may take, beside `_LOST_S`, before it counts as failed."""
 _LOST_S = 60.0
+_EXACTLY_M = 0.05
+_NEAR_DOOR_M = 0.8
+_NEAR_LINE_M = 1.2
+"""Who comes so near to the end of a line stands in it, and is sent to their own place."""
+_NEAR_SPOT_M = 1.0
+"""From so near one sees whether somebody stands in one's slot, and looks for room beside."""
+_STROLL_M = 0.4
 _AT_ONCE_S = 5.0
 """Who goes on being served within this time keeps the service slot."""
-_PASSING = (Action.ENTER_EXIT, Action.WANDER)
+_PASSING = (Action.ENTER_EXIT, *PACES)
 """Doings that take up no slot."""
 
 
@@ -134,6 +141,8 @@ class _Play:
             row.position_m, row.facing_rad = self.stage.position_m(agent), self.stage.facing_rad(agent)
             yield Wait(occasion.over)
             row.end_s = self.clock.now_s
+            if self._is_on_the_way(agent, step):
+                row.position_m, row.facing_rad = self.stage.position_m(agent), self.stage.facing_rad(agent)
             row.status = Status.DONE if arrived and not occasion.timed_out else Status.TIMEOUT
         self._end(agent, person)
 
@@ -144,22 +153,33 @@ class _Play:
 
     def _go(self, agent: int, step: int, activity: Activity) -> Errand:
         """Brings a person to where the activity is."""
-        if self.inside.get(agent) == activity.location:
+        if self.inside.get(agent) == activity.location or self._is_on_the_way(agent, step):
             return True
         self._come_out(agent)
         self.spots.give_back(agent)
-        line = self.lines[activity.location]
+        line, company = self.lines[activity.location], self._company(agent, step)
         if agent in line.served:
             return (yield from self._walk(agent, line.served[agent]))
         together = self.occasions[activity.occasion].steps
         if self._lines_up(agent, step) and not any(other in line.served for other in together):
-            return (yield from self._walk(agent, line.tail()))
-        arrived = yield from self._walk(agent, activity.slot)
+            return (yield from self._walk(agent, line.tail(), company, _NEAR_LINE_M))
         if activity.action in _PASSING:
-            return arrived
+            return (yield from self._walk(agent, activity.slot, company, _NEAR_DOOR_M))
+        arrived = yield from self._walk(agent, activity.slot, company, _NEAR_SPOT_M)
         return (yield from self._walk(agent, self.spots.take(agent, activity.slot))) and arrived
 
-    def _walk(self, agent: int, slot: Slot) -> Errand:
+    def _company(self, agent: int, step: int) -> Hashable:
+        """Who come from the same doing and go to the same place walk together."""
+        activities = self.plan.people[agent].activities
+        if step == 0 or not activities[step - 1].partners:
+            return None
+        return activities[step - 1].occasion, activities[step].location
+
+    def _is_on_the_way(self, agent: int, step: int) -> bool:
+        activities = self.plan.people[agent].activities
+        return step > 0 and begins_on_the_way(activities[step - 1], activities[step])
+
+    def _walk(self, agent: int, slot: Slot, company: Hashable = None, near_m: float = _EXACTLY_M) -> Errand:
         """Walks to a slot; False if it takes so long that the way must be lost. Then one stays where one is."""
         here_m = self.stage.position_m(agent)
         if here_m == slot.position_m:
@@ -167,7 +187,8 @@ class _Play:
             return True
         shortest_s = math.dist(here_m, slot.position_m) / self.plan.people[agent].speed_mps
         limit_s = self.clock.now_s + _SLOWEST * shortest_s + _LOST_S
-        arrived = yield Wait(self.stage.send(agent, slot), limit_s)
+        target = Target(slot.position_m, company=company, near_m=near_m)
+        arrived = yield Wait(self.stage.send(agent, slot, target), limit_s)
         self.stage.stop(agent)
         return arrived
 
@@ -210,7 +231,9 @@ class _Play:
         else:
             yield Wait(until_s=activity.start_s)
             self._begin(occasion)
-            if activity.action is Action.WANDER and not self.inside.keys() & set(agents):
+            if any(self._is_on_the_way(agent, occasion.steps[agent]) for agent in agents):
+                yield from self._walk_on(occasion)
+            elif activity.action in PACES and not self.inside.keys() & set(agents):
                 yield from self._stroll(occasion)
             else:
                 yield Wait(until_s=self.clock.now_s + occasion.duration_s)
@@ -263,20 +286,34 @@ class _Play:
         for arrival in arrivals:
             yield Wait(arrival, self.clock.now_s + _LOST_S)
 
+    def _walk_on(self, occasion: Occasion) -> Life:
+        """Walks to the planned slots while doing what is to be done, and goes on doing it there."""
+        end_s = self.clock.now_s + occasion.duration_s
+        arrivals = []
+        for agent in occasion.here:
+            self._come_out(agent)
+            slot = self.spots.take(agent, self.plan.people[agent].activities[occasion.steps[agent]].slot)
+            arrivals.append(self.stage.send(agent, slot, Target(slot.position_m, company=id(occasion))))
+        for arrival in arrivals:
+            yield Wait(arrival, end_s + _LOST_S)
+        yield Wait(until_s=end_s)
+
     def _stroll(self, occasion: Occasion) -> Life:
-        """Wanders from point to point, together, and is at the planned slot when the time is over."""
+        """Goes from point to point, together, and is at the planned slot when the time is over."""
         agents, end_s = tuple(occasion.here), self.clock.now_s + occasion.duration_s
         home = [self.plan.people[agent].activities[occasion.steps[agent]].slot for agent in agents]
-        pace_mps = PACE * self.plan.people[agents[0]].speed_mps
+        pace = PACES[occasion.activity.action]
+        pace_mps = pace * self.plan.people[agents[0]].speed_mps
         while not self.clock.is_past(end_s):
             here_m = [self.stage.position_m(agent) for agent in agents]
             goals = self.strolls.next(occasion.activity.location, here_m)
             goal_m = goals[0].position_m
             there_and_home_s = (math.dist(here_m[0], goal_m) + math.dist(goal_m, home[0].position_m)) / pace_mps
             is_last = self.clock.is_past(end_s - there_and_home_s - LONGEST_PAUSE_S)
-            turns = zip(agents, home if is_last else goals, strict=True)
-            for arrival in [self.stage.send(agent, goal, PACE) for agent, goal in turns]:
-                yield Wait(arrival, end_s)
+            for agent, slot in zip(agents, home if is_last else goals, strict=True):
+                self.stage.send(agent, slot, Target(slot.position_m, pace, near_m=_EXACTLY_M if is_last else _STROLL_M))
+            for agent in agents:
+                yield Wait(self.stage.arrival(agent), end_s)
             yield Wait(until_s=end_s if is_last else self.clock.now_s + self.strolls.pause_s())
         for agent in agents:
             self.stage.stop(agent)

@@ -5,9 +5,13 @@ Built in, exact and fast: for big crowds, bare installs, and tests.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
+from genc.motion.routes import Order, find_routes
+from genc.motion.steering import Target
 from genc.plan.walkable import Walkable
 
 Floats = NDArray[np.float64]
@@ -18,7 +22,7 @@ DT_S = 0.1
 class Kinematic:
     """A `Steering` by shortest paths around obstacles, without avoidance.
 
-    Each walker is on one straight leg of its path at a time. A step moves all of them at once; Python code runs
+    Each walker is on one straight leg of its route at a time. A step moves all of them at once; Python code runs
     only for those who come to the end of a leg.
     """
 
@@ -29,11 +33,12 @@ class Kinematic:
         self.walking = np.zeros(n_agents, dtype=bool)
         self._walkable = walkable
         self._own_mps = np.zeros(n_agents)
-        self._speed_mps = np.zeros(n_agents)
-        self._direction = np.zeros((n_agents, 2))
-        self._leg_m = np.full(n_agents, np.inf)
-        self._route: list[Floats] = [np.empty((0, 2))] * n_agents
-        self._targets: dict[int, tuple[float, float]] = {}
+        self._velocity_mps = np.zeros((n_agents, 2))
+        self._left_s = np.full(n_agents, np.inf)
+        """How long each walker is still on the leg it is on."""
+        self._legs: list[Iterator[tuple[Floats, Floats, float]]] = [iter(()) for _ in range(n_agents)]
+        self._end_m = np.zeros((n_agents, 2))
+        self._orders: dict[int, Order] = {}
 
     def add(self, agent: int, position_m: tuple[float, float], speed_mps: float) -> None:
         """Lets an agent stand there."""
@@ -41,19 +46,19 @@ class Kinematic:
         self._own_mps[agent] = speed_mps
         self.hold(agent)
 
-    def set_target(self, agent: int, target_m: tuple[float, float], pace: float = 1.0) -> None:
-        """Sends an agent to a point; its path is found at the next step, together with all others."""
+    def set_target(self, agent: int, target: Target) -> None:
+        """Sends an agent somewhere; its route is found at the next step, together with all others."""
         self.hold(agent)
-        self._targets[agent] = target_m
-        self._speed_mps[agent] = pace * self._own_mps[agent]
+        x_m, y_m = self.positions_m[agent].tolist()
+        self._orders[agent] = Order(agent, (x_m, y_m), target, target.pace * float(self._own_mps[agent]))
         self.walking[agent] = True
 
     def hold(self, agent: int) -> None:
         """Lets an agent stop."""
-        self._targets.pop(agent, None)
+        self._orders.pop(agent, None)
         self.walking[agent] = False
-        self._direction[agent] = 0.0
-        self._leg_m[agent] = np.inf
+        self._velocity_mps[agent] = 0.0
+        self._left_s[agent] = np.inf
 
     def remove(self, agent: int) -> None:
         """Takes an agent out."""
@@ -62,38 +67,31 @@ class Kinematic:
     def step(self) -> None:
         """Moves everybody on by one step."""
         self._set_off()
-        way_m = self._speed_mps * self.dt_s
-        self.positions_m += self._direction * way_m[:, None]
-        self._leg_m -= way_m
-        for agent in np.flatnonzero(self._leg_m <= 0.0).tolist():
-            self._turn(agent, -float(self._leg_m[agent]))
+        self.positions_m += self._velocity_mps * self.dt_s
+        self._left_s -= self.dt_s
+        for agent in np.flatnonzero(self._left_s <= 0.0).tolist():
+            self._turn(agent, -float(self._left_s[agent]))
 
     def _set_off(self) -> None:
-        if not self._targets:
+        if not self._orders:
             return
-        agents = list(self._targets)
-        goals_m = np.array(list(self._targets.values()))
-        self._targets.clear()
-        paths = self._walkable.paths(self.positions_m[agents], self._walkable.snap(goals_m))
-        for agent, path_m in zip(agents, paths, strict=True):
-            self._route[agent] = path_m
+        routes = find_routes(self._walkable, list(self._orders.values()))
+        self._orders.clear()
+        for agent, route in routes.items():
+            starts_m, velocities_mps = route.points_m[:-1], route.velocities_mps
+            self._legs[agent] = zip(starts_m, velocities_mps, route.durations_s.tolist(), strict=True)
+            self._end_m[agent] = route.points_m[-1]
             self._turn(agent, 0.0)
 
-    def _turn(self, agent: int, beyond_m: float) -> None:
-        """Puts an agent on the next leg of its route, `beyond_m` behind the corner; at the end, lets it stand."""
-        here_m, *rest_m = self._route[agent]
-        while rest_m:
-            leg = rest_m[0] - here_m
-            length_m = float(np.hypot(*leg))
-            if length_m > beyond_m:
-                direction = leg / length_m
-                self._direction[agent] = direction
-                self._leg_m[agent] = length_m - beyond_m
-                self.positions_m[agent] = here_m + beyond_m * direction
-                self.headings_rad[agent] = np.arctan2(direction[1], direction[0])
-                self._route[agent] = np.array(rest_m)
+    def _turn(self, agent: int, late_s: float) -> None:
+        """Puts an agent on the next leg of its route, `late_s` after its start; at the end, lets it stand."""
+        for start_m, velocity_mps, duration_s in self._legs[agent]:
+            if duration_s > late_s:
+                self._velocity_mps[agent] = velocity_mps
+                self._left_s[agent] = duration_s - late_s
+                self.positions_m[agent] = start_m + late_s * velocity_mps
+                self.headings_rad[agent] = np.arctan2(velocity_mps[1], velocity_mps[0])
                 return
-            beyond_m -= length_m
-            here_m = rest_m.pop(0)
-        self.positions_m[agent] = here_m
+            late_s -= duration_s
+        self.positions_m[agent] = self._end_m[agent]
         self.hold(agent)

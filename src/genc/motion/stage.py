@@ -6,7 +6,7 @@ import numpy as np
 
 from genc.motion.clock import Clock, Signal
 from genc.motion.motion import Executed, Motion
-from genc.motion.steering import Steering
+from genc.motion.steering import Steering, Target
 from genc.plan.plan import Slot
 
 _TURN_RADPS = 2 * np.pi
@@ -55,12 +55,15 @@ class Stage:
             self.steering.remove(agent)
             self.present[agent] = False
 
-    def send(self, agent: int, slot: Slot, pace: float = 1.0) -> Signal:
-        """Sends an agent to a slot, and gives back its arrival. Who was sent elsewhere before, arrives here now."""
+    def send(self, agent: int, slot: Slot, target: Target | None = None) -> Signal:
+        """Sends an agent to a slot, or to a target there, and gives back its arrival.
+
+        Who was sent elsewhere before, arrives here now.
+        """
         if not self._under_way[agent]:
             self._arrival[agent] = Signal()
             self._under_way[agent] = True
-        self.steering.set_target(agent, slot.position_m, pace)
+        self.steering.set_target(agent, target or Target(slot.position_m))
         self._facing_rad[agent] = slot.facing_rad
         return self._arrival[agent]
 

@@ -2,10 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where somebody is sent.
+
+    Attributes:
+        point_m: a point; on a footprint it stands for the nearest free point.
+        pace: the share of one's own speed at which to go.
+        company: those who are sent before the same step with the same company, if it is not None, walk side by side,
+            at one speed.
+        near_m: how near to the point is near enough to count as there.
+    """
+
+    point_m: tuple[float, float]
+    pace: float = 1.0
+    company: Hashable = None
+    near_m: float = 0.05
 
 
 class Steering(Protocol):
@@ -30,11 +50,8 @@ class Steering(Protocol):
         """Lets an absent agent stand at a point of free ground; it will walk at that speed."""
         ...
 
-    def set_target(self, agent: int, target_m: tuple[float, float], pace: float = 1.0) -> None:
-        """Sends an agent to a point, at its own speed times `pace`; it counts as walking from now on.
-
-        A target on a footprint stands for the nearest free point.
-        """
+    def set_target(self, agent: int, target: Target) -> None:
+        """Sends an agent somewhere; it counts as walking from now on, until it is there or is sent elsewhere."""
         ...
 
     def hold(self, agent: int) -> None:

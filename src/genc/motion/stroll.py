@@ -1,4 +1,4 @@
-"""Strolls: where people who wander turn next, without leaving their place."""
+"""Strolls: where people who go about turn next, without leaving their place."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from genc.plan.plan import Slot
 from genc.plan.walkable import Walkable
 from genc.scenario.scenario import Environment, Location
+from genc.words.vocabulary import Action
 
-PACE = 0.6
-"""Share of one's walking speed at which one strolls."""
+PACES = {Action.WANDER: 0.6, Action.CARRY: 0.9}
+"""What people do who go about within a place, and at which share of their walking speed."""
 
 LONGEST_PAUSE_S = 4.0
 _N_TRIES = 8

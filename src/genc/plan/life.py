@@ -17,6 +17,7 @@ class Life:
         row: the numbers of the person's occasions.
         workplace: the location of a service that the person runs, or None.
         seat, location: where the person is after all that is scheduled; None and -1 before the first.
+        leaves: whether the last doing takes the person out of sight for good.
     """
 
     group: int
@@ -28,6 +29,7 @@ class Life:
     seat: Seat | None = None
     location: int = -1
     n_done: int = 0
+    leaves: bool = False
 
     @property
     def end_s(self) -> float:

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from genc.scenario.scenario import Environment
 from genc.words.vocabulary import Action
 
+ON_THE_WAY = (Action.CARRY, Action.TALK_ON_PHONE)
+"""What people can do while they walk."""
+
 
 @dataclass(frozen=True)
 class Slot:
@@ -42,6 +45,15 @@ class Activity:
     occasion: int
     partners: tuple[int, ...] = ()
     implied: bool = False
+
+
+def begins_on_the_way(before: Activity, activity: Activity) -> bool:
+    """Whether somebody is to do a thing from the moment of setting off for its slot: on the phone, with a load."""
+    return (
+        activity.action in ON_THE_WAY
+        and activity.start_s == activity.leave_s
+        and activity.slot.position_m != before.slot.position_m
+    )
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,13 @@ from dataclasses import replace
 import numpy as np
 
 from genc.plan.arrivals import Cast, Outline
+from genc.plan.hosting import TO_EACH_OTHER, Hosting
 from genc.plan.life import Life
 from genc.plan.occasion import Occasion, rows_of
-from genc.plan.plan import Activity, Person, Slot
-from genc.plan.seating import Seat, Seating, towards
-from genc.plan.services import Services
+from genc.plan.plan import ON_THE_WAY, Activity, Person, Slot
+from genc.plan.seating import Seat, Seating
 from genc.scenario.durations import sample_durations
-from genc.words.vocabulary import ACTION_INDEX, CATEGORY_INDEX, Action, Category
+from genc.words.vocabulary import ACTION_INDEX, CATEGORY_INDEX, Action
 
 MOST_STRETCH_S = 240.0
 """Longest time by which a doing is drawn out to meet others on time."""
@@ -30,8 +30,6 @@ WORTH_A_MENTION_S = 20.0
 PASSAGE_S = 2.0
 """Time to pass an entrance, where no step asked for it."""
 
-_ROAMING = (Action.WANDER, Action.CARRY)
-_TO_EACH_OTHER = (Action.DISCUSS, Action.MEET, Action.WAVE_AT)
 _ELASTIC = (
     Action.WAIT,
     Action.SIT,
@@ -55,11 +53,11 @@ class _Run:
         self.occasions, self.location, self.triggers = cast.occasions, cast.locations, cast.triggers
         self.seating, self.world_s, self.rng, self.awaited = seating, duration_s, rng, cast.awaited
         self.venue = seating.venue
-        self.services = Services(self.venue.places)
         actions = np.array([ACTION_INDEX[o.action] for o in self.occasions])
         categories = np.array([CATEGORY_INDEX[o.category] for o in self.occasions])
         self.lasts_s: list[float] = sample_durations(actions, categories, rng).tolist()
         self.lives = self._lives()
+        self.hosting = Hosting(cast, self.lives, self.lasts_s, seating, rng)
         self.event_end_s: dict[int, float] = {}
         self.on_hold: dict[int, list[int]] = {}
         """For an event that has not ended, the occasions that wait for it."""
@@ -72,7 +70,8 @@ class _Run:
         while self.heap:
             ready_s, number = heapq.heappop(self.heap)
             self._hold(self.occasions[number], ready_s)
-        return tuple(self._close(agent) for agent in range(len(self.lives)))
+        self._close()
+        return tuple(Person(life.group, life.speed_mps, tuple(life.activities), life.leaves) for life in self.lives)
 
     def _lives(self) -> list[Life]:
         rows = rows_of(self.occasions)
@@ -154,16 +153,24 @@ class _Run:
     def _hold(self, occasion: Occasion, ready_s: float) -> None:
         """Finds slots and times of an occasion, and adds it to the rows of its people."""
         lives = [self.lives[agent] for agent in occasion.agents]
-        seats = self._seats(occasion, lives, ready_s)
-        gate = self.venue.gate(seats[0].slot)
+        seats = self.hosting.seats(occasion, lives, ready_s)
+        entrance, door = self.venue.gate(seats[0].slot)
+        coming = [i for i, life in enumerate(lives) if self._must_come(life, occasion)]
+        doors = dict(zip(coming, self.hosting.abreast(door, len(coming)), strict=True))
         arrive_s = max(
-            self._arrive_s(life, occasion, seat.slot, gate[1]) for life, seat in zip(lives, seats, strict=True)
+            self._arrive_s(life, occasion, seat.slot, doors[i].slot if i in doors else door)
+            for i, (life, seat) in enumerate(zip(lives, seats, strict=True))
         )
-        start_s, end_s = self._span(occasion, lives, seats, max(arrive_s, self._trigger_s(occasion)))
+        if self._is_on_the_way(occasion, lives):
+            start_s = lives[0].end_s
+            end_s = max(start_s + self.lasts_s[occasion.number], arrive_s)
+        else:
+            start_s, end_s = self.hosting.span(occasion, lives, seats, max(arrive_s, self._trigger_s(occasion)))
         self._draw_out(occasion, seats, start_s)
+        if doors:
+            slots = [seats[i].slot for i in doors]
+            self._come([occasion.agents[i] for i in doors], (entrance, list(doors.values())), slots, start_s)
         for agent, life, seat in zip(occasion.agents, lives, seats, strict=True):
-            if self._must_come(life, occasion):
-                self._come(life, gate, seat.slot, start_s)
             partners = tuple(other for other in occasion.agents if other != agent)
             self._add(life, occasion, seat, start_s, end_s, partners)
         if occasion.is_last:
@@ -172,6 +179,17 @@ class _Run:
                 self._offer(number)
         for following in dict.fromkeys(life.next() for life in lives):
             self._offer(following)
+
+    def _is_on_the_way(self, occasion: Occasion, lives: Sequence[Life]) -> bool:
+        """Whether people can begin as soon as they set off: all come from one doing, and nothing else is waited for."""
+        before = {life.activities[-1].occasion if life.seat is not None and life.activities else None for life in lives}
+        return (
+            occasion.action in ON_THE_WAY
+            and len(before) == 1
+            and None not in before
+            and lives[0].location != self.location[occasion.number]
+            and lives[0].end_s >= self._trigger_s(occasion)
+        )
 
     def _add(
         self, life: Life, occasion: Occasion, seat: Seat, start_s: float, end_s: float, partners: tuple[int, ...]
@@ -198,23 +216,37 @@ class _Run:
             and not self.venue.is_passage(occasion.action, self.location[occasion.number])
         )
 
-    def _come(self, life: Life, gate: tuple[int, Slot], slot: Slot, start_s: float) -> None:
-        """Lets somebody come in just in time for their first doing."""
-        entrance, door = gate
-        pass_s = max(0.0, start_s - self._walk_s(life, door, slot) - PASSAGE_S)
-        self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), pass_s, pass_s + PASSAGE_S)
+    def _come(
+        self, agents: Sequence[int], where: tuple[int, Sequence[Seat]], slots: Sequence[Slot], start_s: float
+    ) -> None:
+        """Lets people come in together, just in time for their first doing."""
+        ways = zip(agents, where[1], slots, strict=True)
+        walk_s = max(self._walk_s(self.lives[agent], door.slot, slot) for agent, door, slot in ways)
+        self._imply(agents, Action.ENTER_EXIT, where, max(0.0, start_s - walk_s - PASSAGE_S), PASSAGE_S)
 
-    def _imply(self, life: Life, action: Action, where: tuple[int, Seat], start_s: float, end_s: float) -> None:
+    def _imply(
+        self,
+        agents: Sequence[int],
+        action: Action,
+        where: tuple[int, Sequence[Seat]],
+        start_s: float,
+        lasts_s: float,
+    ) -> None:
         """Adds an activity that no step asked for."""
-        location, seat = where
-        leave_s = life.end_s if life.activities else start_s
-        if life.seat is not None and life.seat is not seat:
-            life.seat.until_s = life.end_s
-        life.activities.append(
-            Activity(action, location, seat.slot, leave_s, start_s, end_s, self.n_occasions, implied=True)
-        )
+        location, seats = where
+        for agent, seat in zip(agents, seats, strict=True):
+            life, partners = self.lives[agent], tuple(sorted(other for other in agents if other != agent))
+            leave_s = life.end_s if life.activities else start_s
+            if life.seat is not None and life.seat is not seat:
+                life.seat.until_s = life.end_s
+            life.activities.append(
+                Activity(
+                    *(action, location, seat.slot, leave_s, start_s, start_s + lasts_s),
+                    *(self.n_occasions, partners, True),
+                )
+            )
+            life.seat, life.location = seat, location
         self.n_occasions += 1
-        life.seat, life.location = seat, location
 
     def _draw_out(self, occasion: Occasion, seats: Sequence[Seat], start_s: float) -> None:
         """Draws out what people did before, where it lasts as long as there is time, until they need to go."""
@@ -227,7 +259,7 @@ class _Run:
         for together in must_go_s.values():
             last = self.lives[min(together)].activities[-1]
             end_s = min(last.end_s + MOST_STRETCH_S, *together.values(), math.inf)
-            if last.action not in _ELASTIC or end_s <= last.end_s or self.venue.is_service_slot(last):
+            if end_s <= last.end_s or not self._is_stretchable(last):
                 continue
             if len(together) == 1 + len(last.partners) and last.occasion not in self.awaited:
                 for agent in together:
@@ -240,7 +272,7 @@ class _Run:
         for agent in agents:
             row = self.lives[agent].activities
             last, others = row[-1], tuple(other for other in agents if other != agent)
-            action = Action.WAIT if last.action in _TO_EACH_OTHER and not others else last.action
+            action = Action.WAIT if last.action in TO_EACH_OTHER and not others else last.action
             row.append(
                 Activity(
                     action, last.location, last.slot, last.end_s, last.end_s, end_s, self.n_occasions, others, True
@@ -248,149 +280,54 @@ class _Run:
             )
         self.n_occasions += 1
 
-    def _close(self, agent: int) -> Person:
+    def _close(self) -> None:
         """Lets people stay at what they do last, if the world ends soon, or work on; sends the others home."""
-        life = self.lives[agent]
-        last = life.activities[-1]
-        leaves = self.venue.is_passage(last.action, last.location)
-        if leaves or last.end_s >= self.world_s:
-            pass
-        elif life.workplace is not None:
-            self._work_on(life, life.workplace)
-        elif self._lingers(last):
-            life.activities[-1] = replace(last, end_s=self.world_s)
-        else:
-            # who did the last thing together leaves by one door
-            leader = self.lives[min((agent, *last.partners))].activities
-            together = next(a.slot for a in leader if a.occasion == last.occasion)
-            entrance, door = self.venue.gate(together)
-            there_s = last.end_s + self._walk_s(life, last.slot, door)
-            if leaves := there_s < self.world_s:
-                self._imply(life, Action.ENTER_EXIT, (entrance, Seat(door)), there_s, there_s + PASSAGE_S)
-        return Person(life.group, life.speed_mps, tuple(life.activities), leaves)
+        together: dict[int, list[int]] = {}
+        for agent, life in enumerate(self.lives):
+            last = life.activities[-1]
+            if self.venue.is_passage(last.action, last.location):
+                life.leaves = True
+            elif last.end_s < self.world_s and life.workplace is not None:
+                self._work_on(agent, life.workplace)
+            elif last.end_s < self.world_s:
+                together.setdefault(last.occasion, []).append(agent)
+        lingering = [agents for agents in together.values() if self._lingers(agents)]
+        for agents in lingering:
+            for agent in agents:
+                row = self.lives[agent].activities
+                row[-1] = replace(row[-1], end_s=self.world_s)
+        for agents in together.values():
+            if agents not in lingering:
+                self._go_home(agents)
 
-    def _work_on(self, life: Life, workplace: int) -> None:
+    def _go_home(self, agents: Sequence[int]) -> None:
+        """Lets people who did the last thing together leave together, if there is time."""
+        lasts = [self.lives[agent].activities[-1] for agent in agents]
+        entrance, door = self.venue.gate(lasts[0].slot)
+        seats = self.hosting.abreast(door, len(agents))
+        lives = [self.lives[agent] for agent in agents]
+        ways = zip(lives, lasts, seats, strict=True)
+        there_s = lasts[0].end_s + max(self._walk_s(life, last.slot, seat.slot) for life, last, seat in ways)
+        if there_s < self.world_s:
+            self._imply(agents, Action.ENTER_EXIT, (entrance, seats), there_s, PASSAGE_S)
+            for life in lives:
+                life.leaves = True
+
+    def _work_on(self, agent: int, workplace: int) -> None:
         """Lets staff who have done what was asked of them go on with their work to the end."""
+        life = self.lives[agent]
         end_s, seat = life.end_s, life.seat
         if seat is None or life.location != workplace:
             seat = self.seating.near(workplace, self.venue.behind(workplace), end_s)
         back_s = end_s + self._walk_s(life, life.activities[-1].slot, seat.slot)
         if back_s < self.world_s:
-            self._imply(life, Action.OBJECT_INTERACT, (workplace, seat), back_s, self.world_s)
+            self._imply([agent], Action.OBJECT_INTERACT, (workplace, [seat]), back_s, self.world_s - back_s)
 
-    def _lingers(self, last: Activity) -> bool:
+    def _lingers(self, agents: Sequence[int]) -> bool:
         """Whether the world ends soon enough to stay at the last thing to the end, and all who share it do."""
+        last = self.lives[agents[0]].activities[-1]
         soon = self.world_s - last.end_s <= MOST_STRETCH_S and last.occasion not in self.awaited
-        if not soon or last.action not in _ELASTIC or self.venue.is_service_slot(last):
-            return False
-        others = [self.lives[agent] for agent in last.partners]
-        return all(o.activities[-1].occasion == last.occasion and o.workplace is None for o in others)
+        return soon and len(agents) == 1 + len(last.partners) and self._is_stretchable(last)
 
-    # Slots.
-
-    def _seats(self, occasion: Occasion, lives: Sequence[Life], ready_s: float) -> list[Seat]:
-        location, action, n = self.location[occasion.number], occasion.action, len(lives)
-        if action is Action.ENTER_EXIT:
-            return self._passages(location, n)
-        if action is Action.QUEUE:
-            return [Seat(slot) for slot in self.services.line(location, n, ready_s)]
-        from_s = min(life.end_s for life in lives)
-        served: list[Slot] = []
-        if self._is_service(occasion):
-            n_customers = len(self._customers(occasion))
-            self.services.turn(occasion.number, location, n_customers, ready_s, self.lasts_s[occasion.number])
-            served = self.services.slots(occasion.number, location)
-        seats: list[Seat | None] = []
-        for life in lives:
-            if served and life.workplace != location:
-                seats.append(Seat(served.pop(0)))
-            else:
-                seats.append(life.seat if self._stays(life, action, location) else None)
-        rest = iter(self._fresh(occasion, lives, seats, from_s))
-        filled = [next(rest) if seat is None else seat for seat in seats]
-        if n > 1 and action in _TO_EACH_OTHER:
-            slots = [seat.slot for seat in filled]
-            for i, seat in enumerate(filled):
-                seat.slot = towards(seat.slot, slots[:i] + slots[i + 1 :])
-        return filled
-
-    def _fresh(
-        self, occasion: Occasion, lives: Sequence[Life], seats: Sequence[Seat | None], from_s: float
-    ) -> list[Seat]:
-        """Seats for those who have none yet: beside those who have, or all in one place."""
-        location, n = self.location[occasion.number], seats.count(None)
-        there = [seat for seat in seats if seat is not None]
-        if n == 0:
-            return []
-        if there:
-            return [self.seating.near(location, there[0].slot.position_m, from_s) for _ in range(n)]
-        if lives[0].workplace == location:
-            return [self.seating.near(location, self.venue.behind(location), from_s) for _ in range(n)]
-        is_table = self.venue.environment.locations[location].category is Category.FURNITURE
-        if n > 1 and occasion.action in (Action.DISCUSS, Action.MEET) and not is_table:
-            return self.seating.around(location, n, from_s)
-        return self.seating.together(location, n, from_s)
-
-    def _passages(self, location: int, n: int) -> list[Seat]:
-        """Points of an entrance, or the door of anything else; nobody stays there, so nobody holds them."""
-        place = self.venue.places[location]
-        if location not in self.venue.entrances:
-            return [Seat(place.door)] * n
-        spots = [place.spots[i] for i in self.rng.integers(len(place.spots), size=n).tolist()]
-        return [Seat(Slot(spot.position_m, place.door.facing_rad)) for spot in spots]
-
-    def _stays(self, life: Life, action: Action, location: int) -> bool:
-        """Whether somebody goes on where they are."""
-        if life.seat is None or life.location != location or action in _ROAMING:
-            return False
-        last = life.activities[-1]
-        return last.action not in (Action.QUEUE, Action.ENTER_EXIT) and not self.venue.is_service_slot(last)
-
-    # Services.
-
-    def _is_service(self, occasion: Occasion) -> bool:
-        """Whether customers use a service, or somebody alone talks to its staff."""
-        alone = len(occasion.agents) == 1 and occasion.action is Action.DISCUSS
-        used = alone or occasion.action is Action.OBJECT_INTERACT
-        return used and self.venue.serves(self.location[occasion.number]) and bool(self._customers(occasion))
-
-    def _customers(self, occasion: Occasion) -> list[int]:
-        place = self.location[occasion.number]
-        return [agent for agent in occasion.agents if self.lives[agent].workplace != place]
-
-    def _span(
-        self, occasion: Occasion, lives: Sequence[Life], seats: Sequence[Seat], arrive_s: float
-    ) -> tuple[float, float]:
-        """Begin and end of an occasion whose people are there at `arrive_s`."""
-        number, location = occasion.number, self.location[occasion.number]
-        end_s = arrive_s + self.lasts_s[number]
-        if occasion.action is Action.QUEUE:
-            service = self._queued_for(occasion)
-            if service is not None:
-                n_customers = len(self._customers(service))
-                turn = self.services.turn(service.number, location, n_customers, end_s, self.lasts_s[service.number])
-                end_s = turn.start_s
-                counter = self.services.slots(service.number, location)
-                way_s = max(self._walk_s(lives[0], seat.slot, slot) for seat in seats for slot in counter)
-                self.services.keep(service.number, location, end_s + way_s + self.lasts_s[service.number])
-            else:
-                end_s = max(end_s, self.services.head_s(location, arrive_s))
-            self.services.stand(location, len(occasion.agents), arrive_s, end_s)
-            return arrive_s, end_s
-        if self._is_service(occasion):
-            n_customers = len(self._customers(occasion))
-            turn = self.services.turn(number, location, n_customers, arrive_s, self.lasts_s[number])
-            start_s = max(arrive_s, turn.start_s)
-            self.services.keep(number, location, start_s + self.lasts_s[number])
-            return start_s, start_s + self.lasts_s[number]
-        return arrive_s, end_s
-
-    def _queued_for(self, queue: Occasion) -> Occasion | None:
-        """The service that all who queue go on to, if there is one."""
-        following = {self.lives[agent].next(skip=1) for agent in queue.agents}
-        number = following.pop()
-        if following or number is None:
-            return None
-        service = self.occasions[number]
-        fits = self.location[number] == self.location[queue.number] and service.agents == queue.agents
-        return service if fits and self._is_service(service) else None
+    def _is_stretchable(self, activity: Activity) -> bool:
+        return activity.action in _ELASTIC and not self.venue.is_service_slot(activity)

@@ -19,6 +19,11 @@ _TRIES = 12
 _MARGINS_M = (0.0, 0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 """Where all spots of a place are taken, people stand round it, further and further out."""
 
+_DIRECTIONS_RAD = np.arange(12) * (np.pi / 6)
+_ROUND_M = np.concatenate(
+    [ring_m * np.stack([np.cos(_DIRECTIONS_RAD), np.sin(_DIRECTIONS_RAD)], axis=1) for ring_m in (0.75, 1.1, 1.5, 1.9)]
+)
+
 
 @dataclass
 class Seat:
@@ -75,19 +80,66 @@ class Seating:
         return self.hold(spot)
 
     def around(self, location: int, n: int, from_s: float) -> list[Seat]:
-        """n seats in a talking circle at a free place of a location; side by side where there is no such room."""
+        """n seats in a talking circle at a free place of a location, or as near to it as there is room."""
         spots = self.venue.places[location].spots
-        place = self.venue.environment.locations[location]
-        for i in self.rng.integers(len(spots), size=_TRIES).tolist():
-            ring = circle(place, self.venue.walkable, spots[i].position_m, n)
-            if all(self.is_free(slot.position_m, from_s) for slot in ring) and _apart(ring):
-                return [self.hold(slot) for slot in ring]
-        return self.together(location, n, from_s)
+        centres = [spots[i] for i in self.rng.integers(len(spots), size=_TRIES).tolist()]
+        return self._ring(location, centres, n, from_s) or self._outside(location, n, from_s)
 
     def together(self, location: int, n: int, from_s: float) -> list[Seat]:
-        """n free spots of a location next to each other."""
-        first = self.any_spot(location, from_s)
-        return [first, *(self.near(location, first.slot.position_m, from_s) for _ in range(n - 1))]
+        """n free spots of a location next to each other, or room for all as near to it as may be."""
+        spots = self.venue.places[location].spots
+        for i in self.rng.integers(len(spots), size=_TRIES).tolist():
+            near = self._free_near(location, spots[i].position_m, reach_m(n), from_s)
+            if len(near) >= n:
+                return [self.hold(spot) for spot in near[:n]]
+        return [self.any_spot(location, from_s)] if n == 1 else self._outside(location, n, from_s)
+
+    def beside(self, location: int, company: Slot, n: int, from_s: float) -> list[Seat]:
+        """n seats next to somebody who has one: spots of the location, else free ground round them."""
+        found: list[Seat] = []
+        for _ in range(n):
+            near = self._free_near(location, company.position_m, reach_m(n), from_s) or self._ground(company, from_s)
+            found.append(self.hold(near[0]) if near else self.near(location, company.position_m, from_s))
+        return found
+
+    def _free_near(self, location: int, point_m: tuple[float, float], reach_m: float, from_s: float) -> list[Slot]:
+        """The free spots of a location within reach of a point, nearest first."""
+        spots = [(math.dist(spot.position_m, point_m), i) for i, spot in enumerate(self.venue.places[location].spots)]
+        near = [self.venue.places[location].spots[i] for away_m, i in sorted(spots) if away_m <= reach_m]
+        return [spot for spot in near if self.is_free(spot.position_m, from_s)]
+
+    def _ground(self, company: Slot, from_s: float) -> list[Slot]:
+        """Free points round somebody, nearest first, with the same outlook."""
+        points_m = (np.array(company.position_m) + _ROUND_M).tolist()
+        fits = self.venue.walkable.free(points_m)
+        return [
+            Slot((x, y), company.facing_rad)
+            for (x, y), fit in zip(points_m, fits, strict=True)
+            if fit and self.is_free((x, y), from_s)
+        ]
+
+    def _outside(self, location: int, n: int, from_s: float) -> list[Seat]:
+        """n seats in a circle round a place where all spots are taken, further and further out."""
+        place = self.venue.environment.locations[location]
+        for margin_m in _MARGINS_M:
+            centres = more_spots(place, self.venue.walkable, margin_m, _TRIES, self.rng)
+            if seats := self._ring(location, centres, n, from_s):
+                return seats
+        return [self.any_spot(location, from_s) for _ in range(n)]
+
+    def _ring(self, location: int, centres: Sequence[Slot], n: int, from_s: float) -> list[Seat]:
+        """n seats in a circle round the first of these points where there is room; none if there is none."""
+        place = self.venue.environment.locations[location]
+        for centre in centres:
+            ring = circle(place, self.venue.walkable, centre.position_m, n)
+            if all(self.is_free(slot.position_m, from_s) for slot in ring) and _apart(ring):
+                return [self.hold(slot) for slot in ring]
+        return []
+
+
+def reach_m(n: int) -> float:
+    """How far apart n people are, at most, who do something together."""
+    return 1.0 + 0.4 * n
 
 
 def towards(slot: Slot, others: Iterable[Slot]) -> Slot:

@@ -11,10 +11,10 @@ from genc.plan.slots import Places
 
 @dataclass(frozen=True)
 class Turn:
-    """A turn at a service: when it comes, and which servers are kept for it."""
+    """A turn at a service: when it comes, and which server is kept for it."""
 
     start_s: float
-    servers: tuple[int, ...]
+    server: int
 
 
 class Services:
@@ -26,26 +26,25 @@ class Services:
         self._in_line_until_s: list[list[float]] = [[] for _ in places]
         self._turns: dict[int, Turn] = {}
 
-    def turn(self, occasion: int, location: int, n_customers: int, from_s: float, lasts_s: float) -> Turn:
-        """The turn of an occasion whose customers come at `from_s`; asked again, the same turn."""
+    def turn(self, occasion: int, location: int, from_s: float, lasts_s: float) -> Turn:
+        """The turn of an occasion whose people come at `from_s`, one server for all; asked again, the same turn."""
         if occasion not in self._turns:
             free_s = self._free_s[location]
             # who is free by then comes first, in order; of the busy, who is free soonest
-            by_wait = sorted(range(len(free_s)), key=lambda i: (max(free_s[i] - from_s, 0.0), i))
-            servers = tuple(by_wait[:n_customers])
-            start_s = max(from_s, *(free_s[i] for i in servers))
-            self._turns[occasion] = Turn(start_s, servers)
+            server = min(range(len(free_s)), key=lambda i: (max(free_s[i] - from_s, 0.0), i))
+            start_s = max(from_s, free_s[server])
+            self._turns[occasion] = Turn(start_s, server)
             self.keep(occasion, location, start_s + lasts_s)
         return self._turns[occasion]
 
     def keep(self, occasion: int, location: int, until_s: float) -> None:
-        """Keeps the servers of an occasion busy until then."""
-        for i in self._turns[occasion].servers:
-            self._free_s[location][i] = max(self._free_s[location][i], until_s)
+        """Keeps the server of an occasion busy until then."""
+        server = self._turns[occasion].server
+        self._free_s[location][server] = max(self._free_s[location][server], until_s)
 
-    def slots(self, occasion: int, location: int) -> list[Slot]:
-        """The service slots of an occasion whose turn is known."""
-        return [self._places[location].service[i] for i in self._turns[occasion].servers]
+    def slot(self, occasion: int, location: int) -> Slot:
+        """The service slot of an occasion whose turn is known."""
+        return self._places[location].service[self._turns[occasion].server]
 
     def line(self, location: int, n: int, from_s: float) -> list[Slot]:
         """Where n people stand who come to the end of a line."""

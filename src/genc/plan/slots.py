@@ -24,6 +24,8 @@ Floats = NDArray[np.float64]
 APART_M = 0.7
 LINE_SPACING_M = 0.75
 LONGEST_LINE = 24
+_KEPT_FOR_LINE = 8
+"""Nobody just stands where so many of a line do."""
 MOST_SPOTS = 400
 _BESIDE_M = BODY_RADIUS_M + 0.1
 """From the edge of a thing to the middle of who sits at it or uses it."""
@@ -85,8 +87,8 @@ def _places(environment: Environment, index: int, solid: bool, middle: Floats, w
     door = _door(environment, place, solid, middle, walkable)
     service = _service(place, solid, middle, walkable)
     head = service[len(service) // 2] if service else door
-    spots = _spots(place, solid, service, walkable)
     line = _line(place, head, service, walkable)
+    spots = _spots(place, solid, (*service, *line[:_KEPT_FOR_LINE]) if service else (), walkable)
     if not spots:
         spots = (_facing(walkable.snap([place.position_m])[0], np.array(place.position_m)),)
     return Places(service, line, spots, door)
@@ -143,7 +145,8 @@ def _front(place: Location, middle: Floats, walkable: Walkable) -> int:
     return best
 
 
-def _spots(place: Location, solid: bool, service: Sequence[Slot], walkable: Walkable) -> tuple[Slot, ...]:
+def _spots(place: Location, solid: bool, kept: Sequence[Slot], walkable: Walkable) -> tuple[Slot, ...]:
+    """Where people do anything that is no service and no queue; away from the slots that are kept for those."""
     centre = np.array(place.position_m)
     if solid:
         first_m = _VIEWING_M if place.category is Category.EXHIBIT else _BESIDE_M
@@ -154,8 +157,8 @@ def _spots(place: Location, solid: bool, service: Sequence[Slot], walkable: Walk
     else:
         points = _grid(place, 0.9)
     points = points[walkable.free(points)]
-    if service and len(points):
-        taken = KDTree([s.position_m for s in service])
+    if kept and len(points):
+        taken = KDTree([slot.position_m for slot in kept])
         points = points[taken.query(points)[0] >= APART_M]
     kept = _spread(points, MOST_SPOTS)
     if place.category in (Category.ROOM, Category.OUTDOOR_AREA, Category.ENTRANCE, Category.BUILDING) and not solid:

@@ -6,6 +6,7 @@ locations lie inside them, and small furniture, items, exhibits and service area
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -45,8 +46,8 @@ def _is_solid(place: Location, others: Sequence[Location]) -> bool:
 
 
 def _holds(place: Location, other: Location) -> bool:
-    """Whether the other's centre lies inside, well away from the edge (a door lies on it)."""
-    if other.category is Category.ENTRANCE:
+    """Whether the other is smaller and its centre lies inside, well away from the edge (a door lies on it)."""
+    if other.category is Category.ENTRANCE or math.prod(other.size_m) >= math.prod(place.size_m):
         return False
     return all(
         abs(b - a) < size / 2 - min(0.5, size / 4)
@@ -79,6 +80,11 @@ class Walkable:
         clear = self._clear(points)
         clear[clear] = self._main[self._cell(points[clear])]
         return clear
+
+    def off(self, points_m: ArrayLike) -> NDArray[np.bool_]:
+        """bool `[n]`: inside a footprint, or out of bounds; a body's middle must never be there."""
+        points = np.asarray(points_m, dtype=float).reshape(-1, 2)
+        return ~self._clear(points, self.obstacles_m)
 
     def snap(self, points_m: ArrayLike) -> Floats:
         """`[n, 2]`: the points themselves where they are free, else the nearest free ground."""
@@ -124,9 +130,10 @@ class Walkable:
         best: Floats = np.where(blocked & np.isfinite(round_about), round_about, straight)
         return best
 
-    def _clear(self, points: Floats) -> NDArray[np.bool_]:
+    def _clear(self, points: Floats, boxes_m: Floats | None = None) -> NDArray[np.bool_]:
+        """bool `[n]`: within the bounds and outside all of these boxes; by default, of those that are kept clear."""
         x, y = points[:, :1], points[:, 1:]
-        box = self._kept_clear
+        box = self._kept_clear if boxes_m is None else boxes_m
         hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
         low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
         inside = ((points >= low) & (points <= high)).all(axis=1)

@@ -29,16 +29,20 @@ def write_table(plan: CrowdPlan, executed: Iterable[Executed]) -> str:
     A cell is empty where there is nothing to say: a time that the end of the world did not let come, every real
     column of an activity that was never set off for.
     """
-    real = {(done.agent, done.step): done for done in executed}
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
+    table.writerows(table_rows(plan, executed))
+    return text.getvalue()
+
+
+def table_rows(plan: CrowdPlan, executed: Iterable[Executed]) -> Iterator[tuple[object, ...]]:
+    """The rows of the table: a cell for each of `COLUMNS`, "" for an empty one."""
+    real = {(done.agent, done.step): done for done in executed}
     for agent, person in enumerate(plan.people):
         for step, activity in enumerate(person.activities):
             name = plan.environment.locations[activity.location].name
-            planned = (agent, step, *_planned_cells(activity, name))
-            table.writerow((*planned, *_real_cells(real.get((agent, step)))))
-    return text.getvalue()
+            yield (agent, step, *_planned_cells(activity, name), *_real_cells(real.get((agent, step))))
 
 
 def read_table(text: str, environment: Environment, n_agents: int) -> tuple[list[list[Activity]], list[Executed]]:
