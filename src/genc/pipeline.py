@@ -94,9 +94,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     return play(plan, for_motion, {"text": text, **made_with}, steering)
 
 
-def stage(
-    scenario: Scenario, *, minutes: float = 10.0, seed: int = 0, steering: str = "kinematic"
-) -> World:
+def stage(scenario: Scenario, *, minutes: float = 10.0, seed: int = 0, steering: str = "kinematic") -> World:
     """A world in which a hand-written scenario is played as written, without a model.
 
     Raises:

@@ -228,12 +228,13 @@ class _Play:
             yield from self._queue(occasion)
         elif any(self._lines_up(agent, occasion.steps[agent]) for agent in agents):
             yield from self._serve(occasion)
+        elif any(self._is_on_the_way(agent, occasion.steps[agent]) for agent in agents):
+            self._begin(occasion)
+            yield from self._walk_on(occasion)
         else:
             yield Wait(until_s=activity.start_s)
             self._begin(occasion)
-            if any(self._is_on_the_way(agent, occasion.steps[agent]) for agent in agents):
-                yield from self._walk_on(occasion)
-            elif activity.action in PACES and not self.inside.keys() & set(agents):
+            if activity.action in PACES and not self.inside.keys() & set(agents):
                 yield from self._stroll(occasion)
             else:
                 yield Wait(until_s=self.clock.now_s + occasion.duration_s)

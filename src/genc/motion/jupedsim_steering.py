@@ -41,6 +41,8 @@ _GIVE_M = 0.15
 stops at anybody who is off its ground; so whoever is off the real one is put back before the next iteration."""
 _PUSHING = 0.5
 """The share of their speed at which people push through."""
+_AT_M = 1e-6
+"""Who is so near to a bend is there; from there the next is in sight."""
 _MOVES_MPS = 0.15
 """Who is slower shows no direction."""
 _SMOOTHING = 0.35
@@ -189,8 +191,9 @@ class JuPedSim:
     def _go_as_if_alone(self, agent: int, way: Way) -> None:
         """Moves an agent that is not in the simulation on its way, clear of the footprints."""
         here_m = self.positions_m[agent].copy()
-        if self._walkable.free(here_m)[0]:
-            next_m = self._walkable.path(here_m, self._walkable.snap(way.target_m)[0])[1]
+        if self._walkable.clear(here_m)[0]:
+            path_m = self._walkable.path(here_m, self._walkable.snap(way.target_m)[0])
+            next_m = next((point_m for point_m in path_m if math.dist(point_m, here_m) > _AT_M), here_m)
         else:
             next_m = self._walkable.snap(here_m)[0]
         step_m = next_m - here_m

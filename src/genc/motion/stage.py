@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from tqdm import tqdm
 
 from genc.motion.clock import Clock, Signal
 from genc.motion.motion import Executed, Motion
@@ -88,7 +89,7 @@ class Stage:
     def play(self) -> None:
         """Lets the world run from its beginning to the last frame."""
         n_steps = (len(self._present) - 1) * self._n_steps_a_frame
-        for step in range(n_steps + 1):
+        for step in tqdm(range(n_steps + 1), desc="moving", unit="step", disable=None, leave=False):
             self.clock.advance(round(step * self.steering.dt_s, 6))
             if step % self._n_steps_a_frame == 0:
                 self._film(step // self._n_steps_a_frame)

@@ -145,7 +145,7 @@ def _front(place: Location, middle: Floats, walkable: Walkable) -> int:
     return best
 
 
-def _spots(place: Location, solid: bool, kept: Sequence[Slot], walkable: Walkable) -> tuple[Slot, ...]:
+def _spots(place: Location, solid: bool, reserved: Sequence[Slot], walkable: Walkable) -> tuple[Slot, ...]:
     """Where people do anything that is no service and no queue; away from the slots that are kept for those."""
     centre = np.array(place.position_m)
     if solid:
@@ -157,8 +157,8 @@ def _spots(place: Location, solid: bool, kept: Sequence[Slot], walkable: Walkabl
     else:
         points = _grid(place, 0.9)
     points = points[walkable.free(points)]
-    if kept and len(points):
-        taken = KDTree([slot.position_m for slot in kept])
+    if reserved and len(points):
+        taken = KDTree([slot.position_m for slot in reserved])
         points = points[taken.query(points)[0] >= APART_M]
     kept = _spread(points, MOST_SPOTS)
     if place.category in (Category.ROOM, Category.OUTDOOR_AREA, Category.ENTRANCE, Category.BUILDING) and not solid:

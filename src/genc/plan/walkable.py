@@ -77,14 +77,18 @@ class Walkable:
     def free(self, points_m: ArrayLike) -> NDArray[np.bool_]:
         """bool `[n]`: inside the bounds, a body's radius clear of every obstacle, and reachable."""
         points = np.asarray(points_m, dtype=float).reshape(-1, 2)
-        clear = self._clear(points)
+        clear = self.clear(points)
         clear[clear] = self._main[self._cell(points[clear])]
         return clear
+
+    def clear(self, points_m: ArrayLike) -> NDArray[np.bool_]:
+        """bool `[n]`: inside the bounds and a body's radius clear of every obstacle, perhaps out of reach."""
+        return self._outside(np.asarray(points_m, dtype=float).reshape(-1, 2), self._kept_clear)
 
     def off(self, points_m: ArrayLike) -> NDArray[np.bool_]:
         """bool `[n]`: inside a footprint, or out of bounds; a body's middle must never be there."""
         points = np.asarray(points_m, dtype=float).reshape(-1, 2)
-        return ~self._clear(points, self.obstacles_m)
+        return ~self._outside(points, self.obstacles_m)
 
     def snap(self, points_m: ArrayLike) -> Floats:
         """`[n, 2]`: the points themselves where they are free, else the nearest free ground."""
@@ -130,10 +134,9 @@ class Walkable:
         best: Floats = np.where(blocked & np.isfinite(round_about), round_about, straight)
         return best
 
-    def _clear(self, points: Floats, boxes_m: Floats | None = None) -> NDArray[np.bool_]:
-        """bool `[n]`: within the bounds and outside all of these boxes; by default, of those that are kept clear."""
+    def _outside(self, points: Floats, box: Floats) -> NDArray[np.bool_]:
+        """bool `[n]`: within the bounds and outside all of these boxes."""
         x, y = points[:, :1], points[:, 1:]
-        box = self._kept_clear if boxes_m is None else boxes_m
         hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
         low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
         inside = ((points >= low) & (points <= high)).all(axis=1)
@@ -155,7 +158,7 @@ class Walkable:
         """`[c, 2]` the turning points of shortest ways."""
         x0, y0, x1, y1 = (self._kept_clear + 1e-3 * np.array([-1.0, -1.0, 1.0, 1.0])).T
         corners = np.concatenate([np.stack(c, axis=1) for c in ((x0, y0), (x0, y1), (x1, y0), (x1, y1))])
-        return corners[self._clear(corners)]
+        return corners[self.clear(corners)]
 
     def _to_corners(self, points: Floats) -> Floats:
         """`[n, c]` metres in a straight line; infinite where the line is blocked."""
@@ -188,7 +191,7 @@ class Walkable:
         x0, y0, x1, y1 = self.bounds_m
         shape = int((x1 - x0) / CELL_M) + 1, int((y1 - y0) / CELL_M) + 1
         cells = np.indices(shape).reshape(2, -1)
-        parts, _ = label(self._clear(self._centre(*cells)).reshape(shape))
+        parts, _ = label(self.clear(self._centre(*cells)).reshape(shape))
         main: NDArray[np.bool_] = parts == parts[0, 0]
         return main
 
