@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import model_folder
 import pytest
 
 from genc.cli import cli, main
-from genc.cli.worlds import WORLD_FILE
+from genc.cli.worlds import PAGE, WORLD_FILE
 
 TEXT = "Visitors wait for the tour and look at the bones"
 SCRIPT = Path(__file__).parents[2] / "src/genc/corpora/museum/01.txt"
@@ -69,6 +70,16 @@ def test_the_summary_as_json_says_what_was_made(genc, model, tmp_path):
     code, out, _ = genc("populate", TEXT, "--agents", 5, "--minutes", 1, "--model", model, "--out", tmp_path, "--json")
     said = json.loads(out)
     assert (code, said["agents"], said["seed"], said["minutes"], said["text"]) == (0, 5, 0, 1.0, TEXT)
+
+
+def test_a_page_comes_with_the_world_unless_it_is_not_wanted(genc, model, tmp_path, world):
+    assert base64.b64encode((world / WORLD_FILE).read_bytes()) in (world / PAGE).read_bytes()
+    args = ["populate", TEXT, "--agents", 3, "--minutes", 1, "--model", model, "--out", tmp_path]
+    code, out, _ = genc(*args, "--no-page")
+    assert (code, PAGE in out, (tmp_path / PAGE).exists()) == (0, False, False)
+    code, out, _ = genc(*args)
+    assert f"{tmp_path / PAGE}: open it in a browser" in out
+    assert genc(*args, "--json")[1].count(str(tmp_path / PAGE)) == 1
 
 
 def test_a_story_can_be_told_of_all_of_a_group_and_of_a_person(genc, world):

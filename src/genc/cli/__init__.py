@@ -12,6 +12,7 @@ import click
 from genc.cli.corpus import corpus
 from genc.cli.exporting import export
 from genc.cli.learning import dataset, train
+from genc.cli.rendering import render
 from genc.cli.worlds import populate, stage, story
 from genc.errors import GencError
 
@@ -22,7 +23,7 @@ def cli() -> None:
     """One sentence in, a populated world out."""
 
 
-for command in (populate, stage, story, export, corpus, dataset, train):
+for command in (populate, stage, story, render, export, corpus, dataset, train):
     cli.add_command(command)
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from genc.world.world import World
 
 WORLD_FILE = "world.genc"
+PAGE = "world.html"
 
 out_option = click.option(
     "--out", default="out/world", show_default=True, type=click.Path(path_type=Path), help="Folder for the world."
@@ -20,6 +21,15 @@ out_option = click.option(
 minutes_option = click.option("--minutes", default=10.0, show_default=True, help="Length of the world.")
 seed_option = click.option(
     "--seed", default=0, show_default=True, type=click.IntRange(0, 2**32 - 1), help="Same seed, same bytes."
+)
+page_option = click.option(
+    "--page/--no-page", default=True, show_default=True, help=f"Write {PAGE} too, which plays the world in a browser."
+)
+steering_option = click.option(
+    "--steering",
+    default="kinematic",
+    show_default=True,
+    help="What moves people: 'kinematic' (fast, through each other) or 'jupedsim' (round each other; an extra).",
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 
@@ -35,7 +45,9 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print the su
 )
 @click.option("--model", default=None, type=click.Path(path_type=Path), help="A trained model; else the shipped one.")
 @click.option("--guidance", default=2.0, show_default=True, help="How far the sentence steers; 1: as learned.")
+@steering_option
 @out_option
+@page_option
 @json_option
 def populate(  # noqa: PLR0913 - one parameter for each option
     text: str,
@@ -46,7 +58,9 @@ def populate(  # noqa: PLR0913 - one parameter for each option
     environment: Path | None,
     model: Path | None,
     guidance: float,
+    steering: str,
     out: Path,
+    page: bool,
     as_json: bool,
 ) -> None:
     """Makes a world of TEXT: one sentence that says where it is, who is there and what they do."""
@@ -54,21 +68,29 @@ def populate(  # noqa: PLR0913 - one parameter for each option
 
     from genc.files import ensure_folder
     from genc.model.checkpoint import SHIPPED, load_generator
-    from genc.pipeline import check_guidance, check_request
+    from genc.pipeline import check_guidance, check_request, check_steering
     from genc.pipeline import populate as make
     from genc.scenario.corpus import load_theme
     from genc.scenario.exchange import read_environment
 
     check_request(text, agents, minutes)
+    check_steering(steering)
     if theme is not None:
         load_theme(theme)
     layout = None if environment is None else read_environment(environment)
     generator = replace(load_generator(SHIPPED if model is None else model), guidance=check_guidance(guidance))
     ensure_folder(out)
     world = make(
-        text, n_agents=agents, theme=theme, minutes=minutes, seed=seed, environment=layout, generator=generator
+        text,
+        n_agents=agents,
+        theme=theme,
+        minutes=minutes,
+        seed=seed,
+        environment=layout,
+        generator=generator,
+        steering=steering,
     )
-    _write(world, out, as_json=as_json)
+    _write(world, out, with_page=page, as_json=as_json)
 
 
 @click.command()
@@ -76,21 +98,35 @@ def populate(  # noqa: PLR0913 - one parameter for each option
 @click.option("--scenario", "slug", default=None, help="Which scenario of the file; by default the first.")
 @minutes_option
 @seed_option
+@steering_option
 @out_option
+@page_option
 @json_option
-def stage(script: Path, slug: str | None, minutes: float, seed: int, out: Path, as_json: bool) -> None:
+def stage(  # noqa: PLR0913 - one parameter for each option
+    script: Path,
+    slug: str | None,
+    minutes: float,
+    seed: int,
+    steering: str,
+    out: Path,
+    page: bool,
+    as_json: bool,
+) -> None:
     """Plays a scenario of SCRIPT as it is written, without a model."""
     from genc.errors import ScriptError
     from genc.files import ensure_folder
+    from genc.pipeline import check_steering
     from genc.pipeline import stage as make
     from genc.scenario.corpus import load_scripts
 
+    check_steering(steering)
     scenarios = {scenario.slug: scenario for scenario in load_scripts(script)}
     chosen = next(iter(scenarios)) if slug is None else slug
     if chosen not in scenarios:
         raise ScriptError([f"{script}: no scenario is called {chosen!r}; there are {', '.join(scenarios)}"])
     ensure_folder(out)
-    _write(make(scenarios[chosen], minutes=minutes, seed=seed), out, as_json=as_json)
+    world = make(scenarios[chosen], minutes=minutes, seed=seed, steering=steering)
+    _write(world, out, with_page=page, as_json=as_json)
 
 
 @click.command()
@@ -117,14 +153,18 @@ def story(world: Path, agent: int | None, group: int | None) -> None:
     click.echo("\n".join(lines))
 
 
-def _write(world: World, out: Path, *, as_json: bool) -> None:
+def _write(world: World, out: Path, *, with_page: bool, as_json: bool) -> None:
+    from genc.world.page import write_page
     from genc.world.world_file import write_world
 
-    path = out / WORLD_FILE
+    path, page = out / WORLD_FILE, out / PAGE
     write_world(world, path)
+    if with_page:
+        write_page(path, page)
     plan, motion = world.plan, world.motion
     summary = {
         "world": str(path),
+        "page": str(page) if with_page else None,
         "agents": len(plan.people),
         "groups": len(plan.captions),
         "minutes": plan.duration_s / 60,
@@ -140,6 +180,8 @@ def _write(world: World, out: Path, *, as_json: bool) -> None:
     else:
         people, groups = _counted(len(plan.people), "person", "people"), _counted(len(plan.captions), "group", "groups")
         click.echo(f"{path}: {people} in {groups}, {plan.duration_s / 60:g} minutes")
+        if with_page:
+            click.echo(f"{page}: open it in a browser")
         click.echo(f"read it with 'genc story {out}'")
 
 
