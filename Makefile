@@ -4,6 +4,7 @@
 #   make test          the tests
 #   make check         everything that must hold before a change lands
 #   make docs          writes docs/cli.md anew from the commands
+#   make player        builds the browser player anew (needs Node.js 20.19 or newer)
 
 TEXT   ?= At the station concourse on Friday evening, commuters queue for coffee while a school class waits for a delayed train
 AGENTS ?= 60
@@ -13,11 +14,11 @@ READY  := .venv/.ready
 
 export TEXT
 
-.PHONY: populate test check docs
+.PHONY: populate test check docs player
 .DELETE_ON_ERROR:
 
 populate: $(READY)
-	$(BIN)/genc populate "$$TEXT" --agents $(AGENTS) --out $(OUT)
+	$(BIN)/genc populate "$$TEXT" --agents $(AGENTS) --steering jupedsim --out $(OUT)
 	$(BIN)/genc story $(OUT) --group 1
 
 test: $(READY)
@@ -29,12 +30,16 @@ check: $(READY)
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python docs/cli_reference.py --check
+	cd player && npm ci --silent
 	$(BIN)/pytest
+
+player:
+	cd player && npm ci --silent && npm run --silent build
 
 docs: $(READY)
 	$(BIN)/python docs/cli_reference.py
 
-# Made anew whenever the requirements change.
+# Made anew whenever the requirements change. Of what jupedsim asks for, only its own window needs the rest (1.2 GB).
 $(READY): pyproject.toml constraints.txt
 	@python=$$(for p in python3 python3.11 python3.12 python3.13 python3.14 python; do \
 		if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; \
@@ -43,4 +48,5 @@ $(READY): pyproject.toml constraints.txt
 	echo "installing into .venv with $$($$python --version)"; \
 	test -x $(BIN)/python || $$python -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt --no-deps jupedsim
 	@touch $@

@@ -2,8 +2,8 @@
 
     python benchmarks/player.py out/big
 
-The budget for 1,000 people is 4 ms and 60 draw calls. Script time is the mean processor time of the page's own thread in
-scripts, for a frame: where there is no GPU the rendering is software, takes other threads, and is not counted.
+The budget for 1,000 people is 4 ms and 60 draw calls. Script time is the mean processor time of the page's own thread
+in scripts, for a frame: where there is no GPU the rendering is software, takes other threads, and is not counted.
 """
 
 from __future__ import annotations

@@ -28,18 +28,9 @@ def test_the_readme_names_only_what_exists():
     for link in re.findall(r"\]\(([^)#]+)\)", readme):
         assert (ROOT / link).exists(), link
     commands = (ROOT / "docs/cli.md").read_text()
-    for command in re.findall(r"genc ((?:populate|stage|story|train|dataset build|corpus stats))\b", readme):
+    for command in re.findall(
+        r"genc ((?:populate|stage|story|render|export|train|dataset build|corpus stats))\b", readme
+    ):
         assert f"genc {command}" in commands, command
     for option in set(re.findall(r"(--[a-z]+)", readme)):
-        assert option in commands or option == "--repeats", option
-
-
-def test_every_picture_of_a_world_can_be_drawn(tmp_path, monkeypatch):
-    module = runpy.run_path(str(ROOT / "docs/picture.py"))
-    import genc
-
-    world = genc.stage(genc.load_corpus(["museum"])[0], minutes=1)
-    svg = module["picture"](world, 30.0)
-    assert svg.count("<circle") == int(world.motion.present[round(30 / world.motion.dt_s)].sum())
-    for place in world.plan.environment.locations:
-        assert place.name.split("'")[0] in svg
+        assert option in commands or option in ("--repeats", "--no-deps"), option
