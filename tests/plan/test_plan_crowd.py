@@ -11,6 +11,7 @@ from crowds import HALL, alone, authored, environment, plan
 
 from genc.errors import LayoutError
 from genc.plan.plan import CrowdPlan, begins_on_the_way
+from genc.plan.seating import reach_m
 from genc.plan.slots import places_of
 from genc.plan.walkable import Walkable
 from genc.scenario.corpus import load_corpus
@@ -200,3 +201,39 @@ def test_meaning_decides_between_equal_places():
     made = [plan([BUYING] * 2, seed=seed, affinity=affinity) for seed in range(20)]
     used = [_named(m, a) for m in made for p in m.people for a in p.activities if a.action is Action.OBJECT_INTERACT]
     assert used.count("stand") > 30
+
+
+@EVERY
+def test_partners_stand_near_each_other(slug):
+    made = PLANS[slug][1]
+    where = defaultdict(list)
+    for person in made.people:
+        for activity in person.activities:
+            if activity.action not in (Action.QUEUE, Action.ENTER_EXIT, Action.WANDER, Action.CARRY):
+                where[activity.occasion].append(np.array(activity.slot.position_m))
+    shared = [slots for slots in where.values() if len(slots) > 1]
+    far = [
+        slots
+        for slots in shared
+        if any(min(np.linalg.norm(a - b) for b in slots if b is not a) > reach_m(len(slots)) + 1e-6 for a in slots)
+    ]
+    assert len(far) <= 0.06 * len(shared)
+
+
+def test_some_carry_and_telephone_on_the_way():
+    on_the_way = [
+        after.action
+        for _, made in PLANS.values()
+        for person in made.people
+        for before, after in itertools.pairwise(person.activities)
+        if begins_on_the_way(before, after)
+    ]
+    assert {Action.CARRY, Action.TALK_ON_PHONE} == set(on_the_way)
+
+
+@EVERY
+def test_those_who_did_the_last_thing_together_leave_together(slug):
+    for person in PLANS[slug][1].people:
+        *_, before, last = person.activities if len(person.activities) > 1 else (None, *person.activities)
+        if last.implied and last.action is Action.ENTER_EXIT and before is not None:
+            assert set(last.partners) <= set(before.partners)

@@ -11,7 +11,9 @@ from genc.motion.routes import Route
 _BEND_M = 0.45
 """How near to a bend the next leg is taken."""
 _ASIDE_M = 0.03
-"""Everybody aims a little to the right of a bend: the model would not pass who stands exactly ahead."""
+"""Everybody aims a little to the right: in the model nobody passes who is exactly ahead."""
+_STRAIGHT_M = 1.0
+"""From so near one goes straight to the end."""
 
 _NEARER_M = 0.15
 """Who has come so much nearer makes progress."""
@@ -109,11 +111,11 @@ class Walk:
         speed_mps = self._speeds_mps[self._leg]
         if self._company is not None:
             speed_mps *= self._company.pace(self._agent, self._until_s[self._leg] - ahead_m / speed_mps)
+        (x, y), aside_m = self._directions[self._leg], _ASIDE_M
         if self._leg == len(self._ends_m) - 1:
-            target_m, speed_mps = (end_m[0], end_m[1]), min(speed_mps, ahead_m / dt_s)
-        else:
-            x, y = self._directions[self._leg]
-            target_m = (end_m[0] + _ASIDE_M * y, end_m[1] - _ASIDE_M * x)
+            speed_mps = min(speed_mps, ahead_m / dt_s)
+            aside_m = _ASIDE_M if ahead_m > _STRAIGHT_M else 0.0
+        target_m = (end_m[0] + aside_m * y, end_m[1] - aside_m * x)
         return Way(target_m, speed_mps, _BUILDS[self._squeeze])
 
     def is_over(self, here_m: Point) -> bool:
