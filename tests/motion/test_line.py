@@ -9,6 +9,7 @@ from genc.motion.line import Line, Party
 from genc.plan.plan import Slot
 
 POSITIONS = [at(float(-k), 0.0) for k in range(1, 6)]
+CROWD = [at(-8.0, float(k)) for k in range(4)]
 SERVICE = [at(0.0, 0.0), at(0.0, 1.0)]
 
 
@@ -18,7 +19,7 @@ class Bystander:
     def __init__(self, n_service: int = 2) -> None:
         self.at: dict[int, Slot] = {}
         self.called: list[Signal] = []
-        self.line = Line(POSITIONS, SERVICE[:n_service], self.at.__setitem__, self.fire)
+        self.line = Line(POSITIONS, CROWD, SERVICE[:n_service], self.at.__setitem__, self.fire)
 
     def fire(self, signal: Signal) -> None:
         signal.happened = True
@@ -128,3 +129,15 @@ def test_every_party_is_served_in_order_and_never_more_than_there_are_slots(size
         assert len({slot.position_m for slot in seen.line.served.values()}) == len(seen.line.served)
         seen.line.release(random.choice(sorted(seen.line.served)))
     assert seen.called == [party.turn for party in parties]
+
+
+def test_who_finds_no_room_in_the_line_stands_in_the_crowd_until_there_is():
+    seen = Bystander(n_service=1)
+    parties = [customer(agent) for agent in range(9)]
+    join(seen, *parties)
+    assert [seen.at[agent] for agent in range(1, 9)] == [*POSITIONS, *CROWD[:3]]
+    seen.line.release(0)
+    assert seen.at[6] == POSITIONS[-1], "the first of the crowd moves up"
+    assert [seen.at[agent] for agent in (7, 8)] == CROWD[1:3], "the others stay where they are"
+    seen.line.join(customer(9))
+    assert seen.at[9] == CROWD[0]

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_world import VAN, at, ground, places
 
-from genc.motion.spots import Spots, crowd_behind
+from genc.motion.spots import Spots, crowds_behind
 
 
 @given(st.lists(st.tuples(st.floats(14.0, 18.0), st.floats(2.0, 6.0)), min_size=1, max_size=25))
@@ -35,7 +35,7 @@ def test_service_slots_are_kept_free():
 
 def test_a_line_without_room_becomes_a_crowd_at_its_end():
     line = places()[VAN].line
-    crowd = crowd_behind(line, ground())
+    crowd = crowds_behind([line], ground())[0]
     points_m = np.array([slot.position_m for slot in (*line, *crowd)])
     assert len(crowd) > 50
     assert ground().free(points_m).all()

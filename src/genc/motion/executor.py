@@ -17,7 +17,7 @@ from genc.motion.clock import Clock, Errand, Life, Wait
 from genc.motion.line import Line, Party
 from genc.motion.motion import Motion, Status
 from genc.motion.occasion import Occasion, Row, occasions
-from genc.motion.spots import Spots, crowd_behind
+from genc.motion.spots import Spots, crowds_behind
 from genc.motion.stage import Stage
 from genc.motion.steering import Steering, Target
 from genc.motion.stroll import LONGEST_PAUSE_S, PACES, Strolls
@@ -101,8 +101,8 @@ class _Play:
         self.spots = Spots(len(plan.people), walkable, kept_free)
         self.strolls = Strolls(plan.environment, walkable, rng)
         self.lines = [
-            Line((*place.line, *crowd_behind(place.line, walkable)), place.service, self.stage.send, self.clock.fire)
-            for place in places
+            Line(place.line, behind, place.service, self.stage.send, self.clock.fire)
+            for place, behind in zip(places, crowds_behind([place.line for place in places], walkable), strict=True)
         ]
         self.service = [{slot.position_m for slot in place.service} for place in places]
         self.solid = [
@@ -315,7 +315,7 @@ class _Play:
                 self.stage.send(agent, slot, Target(slot.position_m, pace, near_m=_EXACTLY_M if is_last else _STROLL_M))
             for agent in agents:
                 yield Wait(self.stage.arrival(agent), end_s)
-            yield Wait(until_s=end_s if is_last else self.clock.now_s + self.strolls.pause_s())
+            yield Wait(until_s=end_s if is_last else min(end_s, self.clock.now_s + self.strolls.pause_s()))
         for agent in agents:
             self.stage.stop(agent)
 

@@ -32,7 +32,9 @@ class Line:
     """First come, first served.
 
     Args:
-        positions: where people stand, head first; who finds no room stands at the last one.
+        positions: where people stand, head first.
+        crowd: where those stand who find no room in it, nearest first; there everybody stays until there is room. Who
+            finds none stands at the last one.
         service: the service slots; their number is the capacity.
         send: sends an agent to a slot.
         fire: says that a signal has happened.
@@ -41,11 +43,13 @@ class Line:
     def __init__(
         self,
         positions: Sequence[Slot],
+        crowd: Sequence[Slot],
         service: Sequence[Slot],
         send: Callable[[int, Slot], object],
         fire: Callable[[Signal], None],
     ) -> None:
-        self._positions = positions
+        self._positions = (*positions, *crowd)
+        self._n_in_line = len(positions)
         self._free = list(service)
         self._capacity = len(service)
         self._send = send
@@ -58,7 +62,7 @@ class Line:
 
     def tail(self) -> Slot:
         """Where the next to come would stand."""
-        return self._position(len(self._stands_at))
+        return self._positions[self._next_position(len(self._stands_at))]
 
     def gather(self, agent: int) -> None:
         """Puts somebody behind the line who waits for the rest of a party."""
@@ -91,15 +95,23 @@ class Line:
             self._free.append(slot)
             self._call()
 
-    def _position(self, rank: int) -> Slot:
-        return self._positions[min(rank, len(self._positions) - 1)]
+    def _next_position(self, rank: int) -> int:
+        """Which position is for somebody of that rank who stands nowhere yet."""
+        if rank < self._n_in_line:
+            return rank
+        taken = set(self._stands_at.values())
+        beyond = (i for i in range(self._n_in_line, len(self._positions)) if i not in taken)
+        return next(beyond, len(self._positions) - 1)
 
     def _close_up(self) -> None:
         standing = [agent for party in self._parties for agent in party.members] + self._gathering
         for rank, agent in enumerate(standing):
-            if self._stands_at.get(agent) != rank:
-                self._stands_at[agent] = rank
-                self._send(agent, self._position(rank))
+            before = self._stands_at.get(agent, -1)
+            stays = rank >= self._n_in_line <= before
+            now = before if stays else self._next_position(rank)
+            if now != before:
+                self._stands_at[agent] = now
+                self._send(agent, self._positions[now])
 
     def _call(self) -> None:
         """Gives its turn to the first party that is ready, if there is room."""

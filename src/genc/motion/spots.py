@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from genc.plan.plan import Slot
 from genc.plan.walkable import Walkable
@@ -15,7 +16,9 @@ _ELBOW_M = 0.5
 _RINGS_M = (0.6, 0.9, 1.3, 1.8, 2.5, 3.5, 5.0)
 _N_DIRECTIONS = 12
 _CROWD_SPACING_M = 0.75
-_CROWD_REACH = 8
+_CROWD_REACH = 12
+_LIKELY = 40
+"""So many of a crowd are kept out of other lines' crowds; there is not room for more of every line."""
 
 
 class Spots:
@@ -63,13 +66,16 @@ class Spots:
         return np.asarray((apart_m < _ELBOW_M).any(axis=1))
 
 
-def crowd_behind(line: Sequence[Slot], walkable: Walkable) -> list[Slot]:
-    """Where people stand who come to a line that has no room left: around its end, nearest first."""
-    end = line[-1]
-    offsets = np.indices((2 * _CROWD_REACH + 1,) * 2).reshape(2, -1).T - _CROWD_REACH
-    points_m = np.array(end.position_m) + _CROWD_SPACING_M * offsets
-    line_m = np.array([slot.position_m for slot in line])
-    apart_m = np.linalg.norm(points_m[:, None] - line_m, axis=2).min(axis=1)
-    points_m = points_m[walkable.free(points_m) & (apart_m > _ELBOW_M)]
-    order = np.argsort(np.linalg.norm(points_m - end.position_m, axis=1), kind="stable")
-    return [Slot((x_m, y_m), end.facing_rad) for x_m, y_m in points_m[order].tolist()]
+def crowds_behind(lines: Sequence[Sequence[Slot]], walkable: Walkable) -> list[list[Slot]]:
+    """For each line, where people stand who find no room in it: around its end, nearest first, in nobody's line."""
+    standing_m = [np.array([slot.position_m for slot in line]) for line in lines]
+    crowds = []
+    for i, line in enumerate(lines):
+        offsets = np.indices((2 * _CROWD_REACH + 1,) * 2).reshape(2, -1).T - _CROWD_REACH
+        points_m = np.array(line[-1].position_m) + _CROWD_SPACING_M * offsets
+        apart_m = KDTree(np.concatenate(standing_m)).query(points_m)[0]
+        points_m = points_m[walkable.free(points_m) & (apart_m > _ELBOW_M)]
+        order = np.argsort(np.linalg.norm(points_m - line[-1].position_m, axis=1), kind="stable")
+        standing_m[i] = np.concatenate([standing_m[i], points_m[order[:_LIKELY]]])
+        crowds.append([Slot((x_m, y_m), line[-1].facing_rad) for x_m, y_m in points_m[order].tolist()])
+    return crowds

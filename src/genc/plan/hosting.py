@@ -43,7 +43,7 @@ class Hosting:
         """Where the people of an occasion are, in their order; they could be there at about `ready_s`."""
         location, action, n = self.location[occasion.number], occasion.action, len(lives)
         if action is Action.ENTER_EXIT:
-            return self._passages(location, n)
+            return self.passage(location, n)
         if action is Action.QUEUE:
             return [Seat(slot) for slot in self.services.line(location, n, ready_s)]
         from_s = min(life.end_s for life in lives)
@@ -56,14 +56,13 @@ class Hosting:
                 seat.slot = towards(seat.slot, slots[:i] + slots[i + 1 :])
         return filled
 
-    def abreast(self, slot: Slot, n: int) -> list[Seat]:
-        """n places at a door, side by side; nobody stays there, so nobody holds them."""
-        ahead = np.array([np.cos(slot.facing_rad), np.sin(slot.facing_rad)])
-        aside = np.array([-ahead[1], ahead[0]])
-        row, column = np.divmod(np.arange(n), _N_ABREAST)
-        offset = (column + 1) // 2 * np.where(column % 2, 1, -1)
-        points_m = slot.position_m + _ABREAST_M * (offset[:, None] * aside + row[:, None] * ahead)
-        return [Seat(Slot((x_m, y_m), slot.facing_rad)) for x_m, y_m in self.venue.walkable.snap(points_m).tolist()]
+    def passage(self, location: int, n: int) -> list[Seat]:
+        """Where n people go through an entrance together, anywhere in its width, or by the door of anything else."""
+        place = self.venue.places[location]
+        if location not in self.venue.entrances:
+            return self._abreast(place.door, n)
+        spot = place.spots[int(self.rng.integers(len(place.spots)))]
+        return self._abreast(Slot(spot.position_m, place.door.facing_rad), n)
 
     def _kept(self, occasion: Occasion, lives: Sequence[Life], ready_s: float) -> list[Seat | None]:
         """The service slot of the first who is served, and the seats of those who stay where they are."""
@@ -103,13 +102,14 @@ class Hosting:
             return self.seating.around(location, n, from_s)
         return self.seating.together(location, n, from_s)
 
-    def _passages(self, location: int, n: int) -> list[Seat]:
-        """Points of an entrance, or the door of anything else."""
-        place = self.venue.places[location]
-        if location not in self.venue.entrances:
-            return self.abreast(place.door, n)
-        spot = place.spots[int(self.rng.integers(len(place.spots)))]
-        return self.abreast(Slot(spot.position_m, place.door.facing_rad), n)
+    def _abreast(self, slot: Slot, n: int) -> list[Seat]:
+        """n places at a door, side by side; nobody stays there, so nobody holds them."""
+        ahead = np.array([np.cos(slot.facing_rad), np.sin(slot.facing_rad)])
+        aside = np.array([-ahead[1], ahead[0]])
+        row, column = np.divmod(np.arange(n), _N_ABREAST)
+        offset = (column + 1) // 2 * np.where(column % 2, 1, -1)
+        points_m = slot.position_m + _ABREAST_M * (offset[:, None] * aside + row[:, None] * ahead)
+        return [Seat(Slot((x_m, y_m), slot.facing_rad)) for x_m, y_m in self.venue.walkable.snap(points_m).tolist()]
 
     def _stays(self, life: Life, action: Action, location: int) -> bool:
         """Whether somebody goes on where they are."""

@@ -156,7 +156,7 @@ class _Run:
         seats = self.hosting.seats(occasion, lives, ready_s)
         entrance, door = self.venue.gate(seats[0].slot)
         coming = [i for i, life in enumerate(lives) if self._must_come(life, occasion)]
-        doors = dict(zip(coming, self.hosting.abreast(door, len(coming)), strict=True))
+        doors = dict(zip(coming, self.hosting.passage(entrance, len(coming)), strict=True))
         arrive_s = max(
             self._arrive_s(life, occasion, seat.slot, doors[i].slot if i in doors else door)
             for i, (life, seat) in enumerate(zip(lives, seats, strict=True))
@@ -303,8 +303,8 @@ class _Run:
     def _go_home(self, agents: Sequence[int]) -> None:
         """Lets people who did the last thing together leave together, if there is time."""
         lasts = [self.lives[agent].activities[-1] for agent in agents]
-        entrance, door = self.venue.gate(lasts[0].slot)
-        seats = self.hosting.abreast(door, len(agents))
+        entrance, _ = self.venue.gate(lasts[0].slot)
+        seats = self.hosting.passage(entrance, len(agents))
         lives = [self.lives[agent] for agent in agents]
         ways = zip(lives, lasts, seats, strict=True)
         there_s = lasts[0].end_s + max(self._walk_s(life, last.slot, seat.slot) for life, last, seat in ways)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,17 @@ def places_of(environment: Environment, walkable: Walkable) -> tuple[Places, ...
     """The slots of every location, in order of the locations."""
     solid = is_solid(environment)
     middle = np.mean([place.position_m for place in environment.locations], axis=0)
-    return tuple(_places(environment, i, bool(solid[i]), middle, walkable) for i in range(len(environment.locations)))
+    found = [_places(environment, i, bool(solid[i]), middle, walkable) for i in range(len(environment.locations))]
+    return tuple(replace(place, line=_beside_others(place, found[:i])) for i, place in enumerate(found))
+
+
+def _beside_others(place: Places, before: Sequence[Places]) -> tuple[Slot, ...]:
+    """The line of a place without what would stand in lines of places before it; its head stays."""
+    kept = [slot.position_m for other in before if other.service for slot in (*other.service, *other.line)]
+    if not kept or not place.service:
+        return place.line
+    apart_m = KDTree(kept).query([slot.position_m for slot in place.line])[0]
+    return tuple(slot for i, slot in enumerate(place.line) if i == 0 or apart_m[i] >= APART_M)
 
 
 def circle(location: Location, walkable: Walkable, centre_m: tuple[float, float], n: int) -> tuple[Slot, ...]:
