@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from collections import Counter
+
 from hypothesis import given
 from hypothesis import strategies as st
 from small_world import at
@@ -9,7 +11,6 @@ from genc.motion.line import Line, Party
 from genc.plan.plan import Slot
 
 POSITIONS = [at(float(-k), 0.0) for k in range(1, 6)]
-CROWD = [at(-8.0, float(k)) for k in range(4)]
 SERVICE = [at(0.0, 0.0), at(0.0, 1.0)]
 
 
@@ -19,7 +20,14 @@ class Bystander:
     def __init__(self, n_service: int = 2) -> None:
         self.at: dict[int, Slot] = {}
         self.called: list[Signal] = []
-        self.line = Line(POSITIONS, CROWD, SERVICE[:n_service], self.at.__setitem__, self.fire)
+        self.n_sent: Counter[int] = Counter()
+        self.beyond: set[int] = set()
+        self.line = Line(POSITIONS, SERVICE[:n_service], self.send, self.fire)
+
+    def send(self, agent: int, slot: Slot, fits: bool) -> None:
+        self.at[agent] = slot
+        self.n_sent[agent] += 1
+        self.beyond = (self.beyond | {agent}) - ({agent} if fits else set())
 
     def fire(self, signal: Signal) -> None:
         signal.happened = True
@@ -131,13 +139,12 @@ def test_every_party_is_served_in_order_and_never_more_than_there_are_slots(size
     assert seen.called == [party.turn for party in parties]
 
 
-def test_who_finds_no_room_in_the_line_stands_in_the_crowd_until_there_is():
+def test_who_finds_no_room_in_the_line_stays_about_its_end_until_there_is():
     seen = Bystander(n_service=1)
-    parties = [customer(agent) for agent in range(9)]
-    join(seen, *parties)
-    assert [seen.at[agent] for agent in range(1, 9)] == [*POSITIONS, *CROWD[:3]]
+    join(seen, *(customer(agent) for agent in range(9)))
+    assert [seen.at[agent] for agent in range(1, 6)] == POSITIONS
+    assert seen.beyond == {6, 7, 8}
     seen.line.release(0)
-    assert seen.at[6] == POSITIONS[-1], "the first of the crowd moves up"
-    assert [seen.at[agent] for agent in (7, 8)] == CROWD[1:3], "the others stay where they are"
-    seen.line.join(customer(9))
-    assert seen.at[9] == CROWD[0]
+    assert seen.at[6] == POSITIONS[-1]
+    assert seen.beyond == {7, 8}
+    assert [seen.n_sent[agent] for agent in (7, 8)] == [1, 1], "who has no room yet is not sent about"

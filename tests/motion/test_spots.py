@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_world import VAN, at, ground, places
 
-from genc.motion.spots import Spots, crowds_behind
+from genc.motion.spots import Spots
 
 
 @given(st.lists(st.tuples(st.floats(14.0, 18.0), st.floats(2.0, 6.0)), min_size=1, max_size=25))
@@ -33,11 +33,11 @@ def test_service_slots_are_kept_free():
     assert all(math.dist(given_m, slot.position_m) >= 0.5 for slot in places()[VAN].service)
 
 
-def test_a_line_without_room_becomes_a_crowd_at_its_end():
+def test_a_crowd_at_one_slot_finds_room_around_it():
     line = places()[VAN].line
-    crowd = crowds_behind([line], ground())[0]
-    points_m = np.array([slot.position_m for slot in (*line, *crowd)])
-    assert len(crowd) > 50
+    spots = Spots(60, ground(), ())
+    spots.hold(0, line[-1])
+    points_m = np.array([line[-1].position_m, *(spots.take(agent, line[-1]).position_m for agent in range(1, 60))])
     assert ground().free(points_m).all()
     apart_m = np.linalg.norm(points_m[:, None] - points_m, axis=2) + 9 * np.eye(len(points_m))
     assert apart_m.min() >= 0.5

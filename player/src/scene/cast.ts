@@ -77,7 +77,7 @@ export class Cast {
     } else {
       this.talkOn(base, agent, now, time, spot.walked);
     }
-    this.values[base + AT.headYaw] = this.headYaw(agent, now, time);
+    this.values[base + AT.headYaw] = this.headYaw(agent, before, now, time);
   }
 
   /** Who sits on a bench is drawn on it; between frames and seat the change is as long as that of the posture. */
@@ -118,14 +118,20 @@ export class Cast {
     this.values[at + 2] = frame - first;
   }
 
-  private headYaw(agent: number, now: Stretch, time: number): number {
-    const since = smooth((time - now.start) / NECK_S);
-    if (now.listening === null) return LOOKS_ROUND.has(now.clip) ? since * lookingRound(agent, time) : 0;
-    const into = intoTurn(now.occasion, time);
-    const yaw = this.yawTo(agent, watched(now, agent, time), time);
-    if (into >= TAKING_OVER_S) return since * yaw;
-    const last = this.yawTo(agent, watched(now, agent, time - into - 0.01), time);
-    return since * mix(last, yaw, smooth(into / TAKING_OVER_S));
+  private headYaw(agent: number, before: Stretch, now: Stretch, time: number): number {
+    const share = smooth((time - now.start) / NECK_S);
+    const yaw = this.lookOf(agent, now, time);
+    return share >= 1 || before === now ? yaw : mix(this.lookOf(agent, before, time), yaw, share);
+  }
+
+  /** Where somebody looks: at who speaks, or about. */
+  private lookOf(agent: number, at: Stretch, time: number): number {
+    if (at.listening === null) return LOOKS_ROUND.has(at.clip) ? lookingRound(agent, time) : 0;
+    const into = intoTurn(at.occasion, time);
+    const yaw = this.yawTo(agent, watched(at, agent, time), time);
+    if (into >= TAKING_OVER_S) return yaw;
+    const last = this.yawTo(agent, watched(at, agent, time - into - 0.01), time);
+    return mix(last, yaw, smooth(into / TAKING_OVER_S));
   }
 
   /** How far the head turns towards somebody. */
@@ -158,15 +164,20 @@ export function speakerAt(circle: readonly number[], occasion: number, time: num
   return circle[Math.floor(lot * circle.length)]!;
 }
 
+/** Who speaks; for the first moment it stays the same, so that nobody changes posture twice at once. */
+function speakerOf({ start, circle, occasion }: Stretch, time: number): number {
+  return speakerAt(circle, occasion, Math.max(time, start + CHANGE_S + TAKING_OVER_S));
+}
+
 function clipOf(stretch: Stretch, agent: number, time: number): ClipName {
   if (stretch.listening === null) return stretch.clip;
-  return speakerAt(stretch.circle, stretch.occasion, time) === agent ? stretch.clip : stretch.listening;
+  return speakerOf(stretch, time) === agent ? stretch.clip : stretch.listening;
 }
 
 /** Listeners look at the speaker, the speaker at one of them. */
 function watched(stretch: Stretch, agent: number, time: number): number {
   const { circle, occasion } = stretch;
-  const speaker = speakerAt(circle, occasion, time);
+  const speaker = speakerOf(stretch, time);
   if (speaker !== agent) return speaker < 0 ? agent : speaker;
   const at = circle.indexOf(agent);
   const step = 1 + Math.floor(chance(occasion, turnAt(occasion, time)) * (circle.length - 1));

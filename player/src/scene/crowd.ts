@@ -1,4 +1,4 @@
-/** The crowd on the screen: fine figures near the camera, simple ones further off, and everybody's shadow. */
+/** The crowd on the screen: figures the finer the larger they are there, and everybody's shadow. */
 
 import {
   BufferAttribute, BufferGeometry, Color, CustomBlending, DataTexture, DynamicDrawUsage, EqualStencilFunc, FloatType,
@@ -9,7 +9,7 @@ import { AT, STRIDE, type Cast } from "./cast";
 import { CROWD_FRAGMENT, CROWD_VERTEX, LEAST_GIRTH, SHADOW_FRAGMENT, SHADOW_VERTEX } from "./crowd_shader";
 import { buildFigure } from "./figure";
 import type { LightUniforms } from "./light";
-import type { FigureMesh } from "./loft";
+import type { Detail, FigureMesh } from "./loft";
 import type { Look } from "./palette";
 import type { PoseTable } from "./pose_table";
 
@@ -21,8 +21,8 @@ export interface Eye {
   readonly pixels: number;
 }
 
-/** Taller than this on the screen, in pixels, and a figure is drawn fine. */
-const FINE_FROM_PX = 64;
+/** How tall a figure is on the screen, in pixels, from which on it has detail 1 and 2. */
+const DETAIL_FROM_PX = [36, 96] as const;
 const BYTES = 16;
 
 /** One set of buffers: the people drawn with one mesh. */
@@ -38,8 +38,8 @@ export class Crowd {
   readonly figures = new Group();
   /** By person, 0 plain to 1 faded into the background. */
   readonly dimming: Float32Array;
-  private readonly near: Cohort;
-  private readonly far: Cohort;
+  /** By detail. */
+  private readonly cohorts: readonly [Cohort, Cohort, Cohort];
   private readonly looks: Uint8Array;
   private readonly mist = { value: new Color() };
   private readonly shadow = { value: new Vector4(0.16, 0.14, 0.2, 0.3) };
@@ -47,19 +47,19 @@ export class Crowd {
   constructor(looks: readonly Look[], table: PoseTable, light: LightUniforms) {
     this.dimming = new Float32Array(looks.length);
     this.looks = packedLooks(looks);
-    const fine = geometryOf(buildFigure(true));
-    const simple = geometryOf(buildFigure(false));
+    const meshes = ([0, 1, 2] as const).map((detail) => geometryOf(buildFigure(detail)));
+    const n = looks.length;
+    // A shadow needs less detail than who throws it.
+    const cohortOf = (detail: Detail): Cohort => cohort(n, [meshes[detail]!, meshes[Math.max(detail - 1, 0)]!]);
+    this.cohorts = [cohortOf(0), cohortOf(1), cohortOf(2)];
     const poses = { value: poseTexture(table) };
-    this.near = cohort(looks.length, [fine, simple]);
-    this.far = cohort(looks.length, [simple, simple]);
     const uniforms = { ...light, poses, mist: this.mist, shadow: this.shadow };
-    for (const [cohortOf, defines] of [[this.near, { FINE: 1 }], [this.far, {}]] as const) {
-      const body = new ShaderMaterial(
-        { uniforms, defines, vertexShader: CROWD_VERTEX, fragmentShader: CROWD_FRAGMENT }
-      );
-      this.figures.add(drawn(cohortOf.geometries[0]!, body, 20));
-      this.shadows.add(drawn(cohortOf.geometries[1]!, shadowMaterial(uniforms), 5));
-    }
+    this.cohorts.forEach(({ geometries }, detail) => {
+      const defines = detail === 2 ? { FINE: 1 } : {};
+      const shaders = { vertexShader: CROWD_VERTEX, fragmentShader: CROWD_FRAGMENT };
+      this.figures.add(drawn(geometries[0]!, new ShaderMaterial({ uniforms, defines, ...shaders }), 20));
+      this.shadows.add(drawn(geometries[1]!, shadowMaterial(uniforms), 5));
+    });
   }
 
   setColours(mist: number, shadow: readonly [number, number, number, number]): void {
@@ -67,21 +67,20 @@ export class Crowd {
     this.shadow.value.set(...shadow);
   }
 
-  /** Sorts those in sight into near and far, and hands them to the graphics card. */
+  /** Sorts those in sight by how large they are on the screen, and hands them to the graphics card. */
   update(cast: Cast, eye: Eye): void {
-    this.near.n = 0;
-    this.far.n = 0;
-    const reach = (eye.pixels * 1.75) / FINE_FROM_PX;
+    for (const group of this.cohorts) group.n = 0;
+    const [first, second] = DETAIL_FROM_PX;
     for (let agent = 0; agent < cast.count; agent += 1) {
       const base = STRIDE * agent;
       if (cast.values[base + AT.presence]! <= 0) continue;
       const dx = cast.values[base]! - eye.x;
       const dy = cast.values[base + 1]! - eye.y;
-      const isNear = dx * dx + dy * dy + eye.z * eye.z < reach * reach;
+      const tall = (1.75 * eye.pixels) / Math.sqrt(dx * dx + dy * dy + eye.z * eye.z);
       cast.values[base + AT.dim] = this.dimming[agent]!;
-      this.put(isNear ? this.near : this.far, agent, cast.values);
+      this.put(this.cohorts[tall < first ? 0 : tall < second ? 1 : 2], agent, cast.values);
     }
-    for (const group of [this.near, this.far]) publish(group);
+    for (const group of this.cohorts) publish(group);
   }
 
   private put(group: Cohort, agent: number, values: Float32Array): void {
@@ -90,6 +89,10 @@ export class Crowd {
     const to = group.n * STRIDE;
     const from = agent * STRIDE;
     for (let k = 0; k < STRIDE; k += 1) moving[to + k] = values[from + k]!;
+    const heading = values[from + AT.heading]!;
+    const height = values[from + AT.height]!;
+    moving[to + 2] = Math.cos(heading) * height;
+    moving[to + 3] = Math.sin(heading) * height;
     for (let k = 0; k < BYTES; k += 1) looks[group.n * BYTES + k] = this.looks[agent * BYTES + k]!;
     group.n += 1;
   }

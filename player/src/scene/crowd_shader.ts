@@ -14,7 +14,7 @@ const paint = (name: (typeof PAINTS)[number]): string => `${PAINTS.indexOf(name)
 const SKINNING_GLSL = /* glsl */ `
 attribute vec4 skin;      // joint, other joint, share of the other, paint
 attribute vec2 extra;     // part or -1, shade
-attribute vec4 place;     // x, y, heading, height
+attribute vec4 place;     // x, y, then where the figure's x axis points, as long as the figure is tall
 attribute vec4 poseA;     // two rows, share of the second, 1 with a stool
 attribute vec4 poseB;     // two rows, share of the second, share of pose A
 attribute vec4 manner;    // yaw of the head, lift, presence, dimming
@@ -86,10 +86,10 @@ void figure(out vec3 at, out vec3 direction) {
     direction = normalize(mix(direction, otherDirection, skin.z));
   }
 #endif
-  at *= place.w;
-  at.xy = spun(at.xy, place.z) + place.xy;
-  at.z += manner.y;
-  direction.xy = spun(direction.xy, place.z);
+  float size = length(place.zw);
+  mat2 heading = mat2(place.z, place.w, -place.w, place.z);
+  at = vec3(heading * at.xy + place.xy, at.z * size + manner.y);
+  direction.xy = heading * direction.xy / size;
 }
 `;
 
@@ -124,7 +124,9 @@ void main() {
   }
   vec3 at, direction;
   figure(at, direction);
-  vec3 albedo = pow(painted(), vec3(2.2));
+  // From sRGB, near enough.
+  vec3 albedo = painted();
+  albedo *= albedo * (albedo * 0.305 + 0.682) + 0.0125;
   float sun = shadeAt(place.xy).r;
   // Less sky from below: the ground and the figure itself are in its way.
   float open = extra.y * (0.8 + 0.2 * smoothstep(0.0, 0.9, at.z));

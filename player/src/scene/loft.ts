@@ -4,6 +4,9 @@ import { JOINTS, type Joint } from "./skeleton";
 import { cross, sub, unit, add } from "./vector";
 import type { Vec3 } from "./vector";
 
+/** How fine a figure is: 0 for one of a few pixels, 2 for a close look. */
+export type Detail = 0 | 1 | 2;
+
 /** What is coloured alike; the order is the shader's. */
 export const PAINTS = [
   "skin", "shirt", "trousers", "hair", "shoes", "sleeve", "cover", "paper", "screen", "card", "wood", "bag",
@@ -25,13 +28,15 @@ export interface Ring {
   readonly paint: Paint;
   /** 1 in the open, less in a nook. */
   readonly shade?: number;
-  /** Left out of the simple figure. */
-  readonly fine?: boolean;
+  /** The least detail that it is part of: 0 is in every figure. */
+  readonly detail?: Detail;
 }
 
 export interface TubeOptions {
   readonly lying?: boolean;
   readonly part?: Part;
+  /** Without lids, where the ends are hidden or too small to be seen. */
+  readonly open?: boolean;
   /** 2 is an ellipse, more is squarer. */
   readonly square?: number;
 }
@@ -51,13 +56,17 @@ export const emptyMesh = (): FigureMesh => ({ positions: [], normals: [], skins:
 export function tube(mesh: FigureMesh, rings: readonly Ring[], segments: number, options: TubeOptions = {}): void {
   const points = rings.map((ring) => ringPoints(ring, segments, options));
   const normals = points.map((_, i) => points[i]!.map((_, k) => normalAt(points, i, k)));
+  let lower = -1;
   for (let i = 0; i + 1 < rings.length; i += 1) {
-    const first = mesh.positions.length / 3;
-    for (const at of [i, i + 1]) {
-      points[at]!.forEach((point, k) => addVertex(mesh, point, normals[at]![k]!, rings[at]!, rings[i]!.paint, options));
-    }
-    addBand(mesh, first, segments);
+    const { paint } = rings[i]!;
+    const put = (at: number): number => addRing(mesh, points[at]!, normals[at]!, { ...rings[at]!, paint }, options);
+    // Neighbouring bands share a ring, unless the colour changes there.
+    if (i === 0 || paint !== rings[i - 1]!.paint) lower = put(i);
+    const upper = put(i + 1);
+    addBand(mesh, lower, upper, segments);
+    lower = upper;
   }
+  if (options.open === true) return;
   addCap(mesh, points[0]!, normals[0]!, rings[0]!, true, options);
   addCap(mesh, points.at(-1)!, normals.at(-1)!, { ...rings.at(-1)!, paint: rings.at(-2)!.paint }, false, options);
 }
@@ -82,19 +91,31 @@ function normalAt(points: readonly Vec3[][], i: number, k: number): Vec3 {
   return unit(cross(around, along), [0, 0, i === 0 ? -1 : 1]);
 }
 
-function addVertex(mesh: FigureMesh, point: Vec3, normal: Vec3, ring: Ring, paint: Paint, options: TubeOptions): void {
+/** Adds the vertices of a ring; says which is the first. */
+function addRing(
+  mesh: FigureMesh,
+  points: readonly Vec3[],
+  normals: readonly Vec3[],
+  ring: Ring,
+  options: TubeOptions,
+): number {
+  const first = mesh.positions.length / 3;
+  points.forEach((point, k) => addVertex(mesh, point, normals[k]!, ring, options));
+  return first;
+}
+
+function addVertex(mesh: FigureMesh, point: Vec3, normal: Vec3, ring: Ring, options: TubeOptions): void {
   mesh.positions.push(...point);
   mesh.normals.push(...normal);
   const [other, share] = ring.also ?? [ring.joint, 0];
-  mesh.skins.push(JOINTS.indexOf(ring.joint), JOINTS.indexOf(other), share, PAINTS.indexOf(paint));
+  mesh.skins.push(JOINTS.indexOf(ring.joint), JOINTS.indexOf(other), share, PAINTS.indexOf(ring.paint));
   mesh.extras.push(options.part === undefined ? -1 : PARTS.indexOf(options.part), ring.shade ?? 1);
 }
 
-function addBand(mesh: FigureMesh, first: number, n: number): void {
+function addBand(mesh: FigureMesh, lower: number, upper: number, n: number): void {
   for (let k = 0; k < n; k += 1) {
-    const a = first + k;
-    const b = first + ((k + 1) % n);
-    mesh.index.push(a, b, b + n, a, b + n, a + n);
+    const next = (k + 1) % n;
+    mesh.index.push(lower + k, lower + next, upper + next, lower + k, upper + next, upper + k);
   }
 }
 
@@ -108,7 +129,7 @@ function addCap(
   options: TubeOptions,
 ): void {
   const first = mesh.positions.length / 3;
-  points.forEach((point, k) => addVertex(mesh, point, normals[k]!, ring, ring.paint, options));
+  points.forEach((point, k) => addVertex(mesh, point, normals[k]!, ring, options));
   for (let k = 1; k + 1 < points.length; k += 1) {
     if (below) mesh.index.push(first, first + k + 1, first + k);
     else mesh.index.push(first, first + k, first + k + 1);
@@ -137,7 +158,7 @@ export function block(mesh: FigureMesh, box: Box): void {
       corner[(axis + 1) % 3] = u;
       corner[(axis + 2) % 3] = v * sign;
       const point = add(box.centre, [(corner[0] * sx) / 2, (corner[1] * sy) / 2, (corner[2] * sz) / 2]);
-      addVertex(mesh, point, normal, ring, box.paint, box.part === undefined ? {} : { part: box.part });
+      addVertex(mesh, point, normal, ring, box.part === undefined ? {} : { part: box.part });
     }
     mesh.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
   }

@@ -86,7 +86,7 @@ class PersonStretches {
     edges.forEach((start, i) => {
       const end = edges[i + 1] ?? start + 2;
       if (found.length > 0 && end - start < SHORTEST_S) return;
-      const stretch = this.stretch(start, (Math.max(start, -1) + end) / 2);
+      const stretch = this.stretch(start, (Math.max(start, 0) + end) / 2);
       const last = found.at(-1);
       if (last === undefined || !alike(last, stretch)) found.push(stretch);
     });
@@ -94,14 +94,15 @@ class PersonStretches {
   }
 
   private edges(): number[] {
-    const times = [-Infinity];
+    const times: number[] = [];
     for (const move of this.moves) times.push(move.start, move.end);
     for (const activity of this.person.activities) {
       const { leave, arrive, start, end, action } = activity;
       times.push(...[leave, arrive, start, end].filter((time) => !Number.isNaN(time)));
       if (action === "meet" && !Number.isNaN(start)) times.push(start + GREETING_S);
     }
-    return [...new Set(times)].sort((a, b) => a - b);
+    // What begins at the beginning has been going on before.
+    return [-Infinity, ...[...new Set(times)].filter((time) => time > 0.01).sort((a, b) => a - b)];
   }
 
   private stretch(start: number, time: number): Stretch {
@@ -169,7 +170,8 @@ const SITTING: Partial<Record<Action, ClipName>> = {
   read: "sitRead", "talk on phone": "sitPhone", "object interact": "sitUse",
 };
 
-const STANDING: Readonly<Record<Action, ClipName>> = {
+/** What people do standing, or anyhow. */
+export const STANDING: Readonly<Record<Action, ClipName>> = {
   "carry": "carry",
   "discuss": "talk",
   "enter/exit": "stand",
@@ -203,8 +205,9 @@ export function movesOf(track: Track, agent: number): Move[] {
   let first = -1;
   let last = -1;
   const close = (): void => {
+    if (first < 0) return;
     const far = track.walked[last * nAgents + agent]! - track.walked[first * nAgents + agent]!;
-    if (first >= 0) moves.push({ start: first * dt, end: last * dt, speed: far / ((last - first) * dt) });
+    moves.push({ start: first * dt, end: last * dt, speed: far / ((last - first) * dt) });
     first = -1;
   };
   for (let frame = 0; frame + 1 < nFrames; frame += 1) {

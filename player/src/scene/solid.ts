@@ -39,15 +39,22 @@ export function disc(x: number, y: number, rx: number, ry = rx, steps = 28): Poi
   });
 }
 
-/** A convex outline drawn in by so much. */
+/** A convex outline drawn in by so much; corners rounder than that become sharp. */
 export function inset(outline: readonly Point[], by: number): Point[] {
   const n = outline.length;
+  const [clampX, clampY] = [within(outline.map((p) => p[0]), by), within(outline.map((p) => p[1]), by)];
   return outline.map((point, i) => {
     const [ax, ay] = outward(outline[(i + n - 1) % n]!, point);
-    const [bx, by_] = outward(point, outline[(i + 1) % n]!);
-    const k = by / Math.max(0.25, 1 + ax * bx + ay * by_);
-    return [point[0] - (ax + bx) * k, point[1] - (ay + by_) * k];
+    const [bx, cy] = outward(point, outline[(i + 1) % n]!);
+    const k = by / Math.max(0.25, 1 + ax * bx + ay * cy);
+    return [clampX(point[0] - (ax + bx) * k), clampY(point[1] - (ay + cy) * k)];
   });
+}
+
+/** Keeps values as far as that inside the range of some. */
+function within(values: readonly number[], by: number): (value: number) => number {
+  const [low, high] = [Math.min(...values) + by, Math.max(...values) - by];
+  return (value) => Math.min(Math.max(value, low), high);
 }
 
 function outward(a: Point, b: Point): Point {

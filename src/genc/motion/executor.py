@@ -17,7 +17,7 @@ from genc.motion.clock import Clock, Errand, Life, Wait
 from genc.motion.line import Line, Party
 from genc.motion.motion import Motion, Status
 from genc.motion.occasion import Occasion, Row, occasions
-from genc.motion.spots import Spots, crowds_behind
+from genc.motion.spots import Spots
 from genc.motion.stage import Stage
 from genc.motion.steering import Steering, Target
 from genc.motion.stroll import LONGEST_PAUSE_S, PACES, Strolls
@@ -100,10 +100,7 @@ class _Play:
         kept_free = [slot for place in places for slot in place.service]
         self.spots = Spots(len(plan.people), walkable, kept_free)
         self.strolls = Strolls(plan.environment, walkable, rng)
-        self.lines = [
-            Line(place.line, behind, place.service, self.stage.send, self.clock.fire)
-            for place, behind in zip(places, crowds_behind([place.line for place in places], walkable), strict=True)
-        ]
+        self.lines = [Line(place.line, place.service, self._stand_in_line, self.clock.fire) for place in places]
         self.service = [{slot.position_m for slot in place.service} for place in places]
         self.solid = [
             solid and place.category is Category.BUILDING
@@ -277,11 +274,20 @@ class _Play:
             if not self._stays_served(agent, occasion):
                 line.release(agent)
 
+    def _stand_in_line(self, agent: int, slot: Slot, fits: bool) -> None:
+        """Sends somebody to their place in a line, or to room about its end."""
+        if fits:
+            self.spots.hold(agent, slot)
+            self.stage.send(agent, slot)
+        else:
+            self.stage.send(agent, self.spots.take(agent, slot))
+
     def _step_up(self, occasion: Occasion, line: Line) -> Life:
         """Brings a party from the line to the service slots; who has none stands beside."""
         arrivals = []
         for agent in occasion.here:
             planned = self.plan.people[agent].activities[occasion.steps[agent]].slot
+            self.spots.give_back(agent)
             slot = line.served[agent] if agent in line.served else self.spots.take(agent, planned)
             arrivals.append(self.stage.send(agent, slot))
         for arrival in arrivals:

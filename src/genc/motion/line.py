@@ -33,23 +33,20 @@ class Line:
 
     Args:
         positions: where people stand, head first.
-        crowd: where those stand who find no room in it, nearest first; there everybody stays until there is room. Who
-            finds none stands at the last one.
         service: the service slots; their number is the capacity.
-        send: sends an agent to a slot.
+        send: sends an agent to a slot of the line or, if False, to room near it: who finds none in the line stands
+            about its end until there is.
         fire: says that a signal has happened.
     """
 
     def __init__(
         self,
         positions: Sequence[Slot],
-        crowd: Sequence[Slot],
         service: Sequence[Slot],
-        send: Callable[[int, Slot], object],
+        send: Callable[[int, Slot, bool], object],
         fire: Callable[[Signal], None],
     ) -> None:
-        self._positions = (*positions, *crowd)
-        self._n_in_line = len(positions)
+        self._positions = positions
         self._free = list(service)
         self._capacity = len(service)
         self._send = send
@@ -62,7 +59,7 @@ class Line:
 
     def tail(self) -> Slot:
         """Where the next to come would stand."""
-        return self._positions[self._next_position(len(self._stands_at))]
+        return self._positions[min(len(self._stands_at), len(self._positions) - 1)]
 
     def gather(self, agent: int) -> None:
         """Puts somebody behind the line who waits for the rest of a party."""
@@ -95,23 +92,14 @@ class Line:
             self._free.append(slot)
             self._call()
 
-    def _next_position(self, rank: int) -> int:
-        """Which position is for somebody of that rank who stands nowhere yet."""
-        if rank < self._n_in_line:
-            return rank
-        taken = set(self._stands_at.values())
-        beyond = (i for i in range(self._n_in_line, len(self._positions)) if i not in taken)
-        return next(beyond, len(self._positions) - 1)
-
     def _close_up(self) -> None:
         standing = [agent for party in self._parties for agent in party.members] + self._gathering
         for rank, agent in enumerate(standing):
-            before = self._stands_at.get(agent, -1)
-            stays = rank >= self._n_in_line <= before
-            now = before if stays else self._next_position(rank)
-            if now != before:
-                self._stands_at[agent] = now
-                self._send(agent, self._positions[now])
+            place = min(rank, len(self._positions))
+            if self._stands_at.get(agent) != place:
+                self._stands_at[agent] = place
+                fits = place < len(self._positions)
+                self._send(agent, self._positions[place if fits else -1], fits)
 
     def _call(self) -> None:
         """Gives its turn to the first party that is ready, if there is room."""
