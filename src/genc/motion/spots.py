@@ -14,7 +14,7 @@ _ELBOW_M = 0.5
 """Least distance between two people who stand."""
 _RINGS_M = (0.6, 0.9, 1.3, 1.8, 2.5, 3.5, 5.0)
 _N_DIRECTIONS = 12
-_GRID_M = 0.75 * (np.indices((41, 41)).reshape(2, -1).T - 20.0)
+_GRID_M: NDArray[np.float64] = 0.75 * (np.indices((41, 41)).reshape(2, -1).T - 20.0)
 _GRID_M = _GRID_M[np.argsort(np.linalg.norm(_GRID_M, axis=1), kind="stable")]
 """Where a crowd stands that has filled the rings."""
 
@@ -53,8 +53,9 @@ class Spots:
         """The nearest free ground around a slot where nobody stands; the slot itself if there is none."""
         angles_rad = np.arange(_N_DIRECTIONS) * (2 * np.pi / _N_DIRECTIONS) + slot.facing_rad
         around = np.stack([np.cos(angles_rad), np.sin(angles_rad)], axis=1)
-        for offsets_m in ((np.array(_RINGS_M)[:, None, None] * around).reshape(-1, 2), _GRID_M):
-            candidates_m = offsets_m + slot.position_m
+        rings_m: NDArray[np.float64] = (np.array(_RINGS_M)[:, None, None] * around).reshape(-1, 2)
+        for offsets_m in (rings_m, _GRID_M):
+            candidates_m: NDArray[np.float64] = offsets_m + slot.position_m
             fit = np.flatnonzero(self._walkable.free(candidates_m) & ~self._crowded(candidates_m))
             if len(fit):
                 x_m, y_m = candidates_m[fit[0]].tolist()
