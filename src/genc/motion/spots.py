@@ -14,7 +14,7 @@ _ELBOW_M = 0.5
 """Least distance between two people who stand."""
 _RINGS_M = (0.6, 0.9, 1.3, 1.8, 2.5, 3.5, 5.0)
 _N_DIRECTIONS = 12
-_GRID_M: NDArray[np.float64] = 0.75 * (np.indices((41, 41)).reshape(2, -1).T - 20.0)
+_GRID_M = np.array([(0.75 * i, 0.75 * j) for i in range(-20, 21) for j in range(-20, 21)])
 _GRID_M = _GRID_M[np.argsort(np.linalg.norm(_GRID_M, axis=1), kind="stable")]
 """Where a crowd stands that has filled the rings."""
 
