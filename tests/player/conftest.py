@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browsing import ARGS, CHROMIUMS, LOCAL, PATIENCE_MS, missing, paged
-from crowds import tiled
+from tiling import tiled
 
 import genc
 
