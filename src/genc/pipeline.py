@@ -7,17 +7,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from importlib.util import find_spec
 
 import numpy as np
 
-from genc.errors import BriefError, ExtraError, LayoutError
+from genc.errors import BriefError, LayoutError
 from genc.graph.crowd_graph import CrowdGraph
 from genc.graph.weave import unfold
 from genc.model.checkpoint import load_generator
 from genc.model.generator import CodecGenerator
 from genc.motion.executor import Options, simulate
-from genc.motion.jupedsim_steering import JuPedSim
+from genc.motion.jupedsim_steering import JuPedSim, library
 from genc.motion.kinematic import Kinematic
 from genc.motion.steering import Steering
 from genc.plan.compose import compose
@@ -145,8 +144,8 @@ def check_steering(steering: str) -> None:
     """Raises `BriefError` for an unknown steering, `ExtraError` for one that is not installed."""
     if steering not in STEERINGS:
         raise BriefError(f"there is no steering {steering!r}; choose {' or '.join(STEERINGS)}")
-    if steering == "jupedsim" and find_spec("jupedsim") is None:
-        raise ExtraError("the steering 'jupedsim'", "jupedsim")
+    if STEERINGS[steering] is JuPedSim:
+        library()
 
 
 def check_extent(environment: Environment) -> None:

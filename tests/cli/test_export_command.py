@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from genc.cli import cli, main
+from genc.cli import cli
 from genc.cli.worlds import WORLD_FILE
 from genc.world.export import FORMATS
 
@@ -19,23 +19,6 @@ def world(tmp_path_factory):
     args = ["stage", str(SCRIPT), "--minutes", "1", "--out", str(out)]
     assert CliRunner().invoke(cli, args, catch_exceptions=False).exit_code == 0
     return out
-
-
-@pytest.fixture
-def genc(monkeypatch, capsys):
-    """Runs the command line; gives exit code, output and error lines."""
-
-    def run(*args: object) -> tuple[int, str, list[str]]:
-        monkeypatch.setattr(sys, "argv", ["genc", *map(str, args)])
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        out, err = capsys.readouterr()
-        return code, out, err.splitlines()
-
-    return run
 
 
 def test_the_files_are_written_and_listed_with_their_sizes(genc, world, tmp_path):

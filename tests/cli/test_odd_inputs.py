@@ -7,7 +7,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import model_folder
 import pytest
 from click.testing import CliRunner
 
@@ -19,11 +18,6 @@ from genc.scenario.script import write_script
 LONG = "x" * 300
 HUGE = "L: plain | outdoor area | 0,0 | 1e9x1e9\nL: gate | entrance | 0,0 | 2x2\n"
 FAR = "L: plain | room | 0,0 | 9x9\nL: gate | entrance | 10000000,0 | 2x2\n"
-
-
-@pytest.fixture(scope="module")
-def model(tmp_path_factory):
-    return model_folder.make(tmp_path_factory.mktemp("model"))
 
 
 @pytest.fixture

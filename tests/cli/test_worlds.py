@@ -8,36 +8,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-import model_folder
 import pytest
 
-from genc.cli import cli, main
+from genc.cli import cli
 from genc.cli.worlds import PAGE, WORLD_FILE
 
 TEXT = "Visitors wait for the tour and look at the bones"
 SCRIPT = Path(__file__).parents[2] / "src/genc/corpora/museum/01.txt"
-
-
-@pytest.fixture(scope="module")
-def model(tmp_path_factory):
-    return model_folder.make(tmp_path_factory.mktemp("model"))
-
-
-@pytest.fixture
-def genc(monkeypatch, capsys):
-    """Runs the command line; gives exit code, output and error lines."""
-
-    def run(*args: object) -> tuple[int, str, list[str]]:
-        monkeypatch.setattr(sys, "argv", ["genc", *map(str, args)])
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        out, err = capsys.readouterr()
-        return code, out, err.splitlines()
-
-    return run
 
 
 @pytest.fixture(scope="module")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import click
 
-from genc.cli.worlds import WORLD_FILE
+from genc.cli.worlds import world_file
 from genc.world.export import ALL, FORMATS, check_formats, export_world
 
 
@@ -22,7 +21,7 @@ def export(world: Path, to: str, out: Path) -> None:
     from genc.world.world_file import read_world
 
     names = check_formats(to.split(","))
-    found = read_world(world / WORLD_FILE if os.path.isdir(world) else world)
+    found = read_world(world_file(world))
     for files in export_world(found, out, names).values():
         for file in files:
             click.echo(f"{file}: {_size(file.stat().st_size)}")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import click
 
-from genc.cli.worlds import WORLD_FILE
+from genc.cli.worlds import world_file
 
 
 @click.command()
@@ -37,7 +36,6 @@ def render(  # noqa: PLR0913 - one parameter for each option
     from genc.world.picture import BROWSERS, Shot, take_picture
 
     shot = Shot(at_s, width, height, view, theme, agent, names)
-    file = world / WORLD_FILE if os.path.isdir(world) else world
-    if not take_picture(file, out, shot, plain=plain) and not plain:
+    if not take_picture(world_file(world), out, shot, plain=plain) and not plain:
         click.echo(f"note: no browser could take it ({', '.join(BROWSERS)}), so this is the plain plan", err=True)
     click.echo(str(out))

@@ -34,6 +34,11 @@ steering_option = click.option(
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 
 
+def world_file(world: Path) -> Path:
+    """The world file that a WORLD argument names: the file itself, or the one in that folder."""
+    return world / WORLD_FILE if os.path.isdir(world) else world
+
+
 @click.command()
 @click.argument("text")
 @click.option("--agents", default=60, show_default=True, help="People, exactly.")
@@ -141,7 +146,7 @@ def story(world: Path, agent: int | None, group: int | None) -> None:
 
     if agent is not None and group is not None:
         raise BriefError("--agent and --group were both given: tell of one or the other")
-    found = read_world(world / WORLD_FILE if os.path.isdir(world) else world)
+    found = read_world(world_file(world))
     if agent is not None:
         lines = tell_agent(found, agent)
     elif group is not None:

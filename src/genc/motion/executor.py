@@ -21,7 +21,7 @@ from genc.motion.spots import Spots
 from genc.motion.stage import Stage
 from genc.motion.steering import Steering, Target
 from genc.motion.stroll import LONGEST_PAUSE_S, PACES, Strolls
-from genc.plan.plan import Activity, CrowdPlan, Person, Slot, begins_on_the_way
+from genc.plan.plan import ROAMING, Activity, CrowdPlan, Person, Slot, begins_on_the_way
 from genc.plan.slots import Places
 from genc.plan.walkable import Walkable, is_solid
 from genc.words.vocabulary import Action, Category
@@ -38,7 +38,7 @@ _NEAR_SPOT_M = 1.0
 _STROLL_M = 0.4
 _AT_ONCE_S = 5.0
 """Who goes on being served within this time keeps the service slot."""
-_PASSING = (Action.ENTER_EXIT, *PACES)
+_PASSING = (Action.ENTER_EXIT, *ROAMING)
 """Doings that take up no slot."""
 
 
@@ -231,7 +231,7 @@ class _Play:
         else:
             yield Wait(until_s=activity.start_s)
             self._begin(occasion)
-            if activity.action in PACES and not self.inside.keys() & set(agents):
+            if activity.action in ROAMING and not self.inside.keys() & set(agents):
                 yield from self._stroll(occasion)
             else:
                 yield Wait(until_s=self.clock.now_s + occasion.duration_s)

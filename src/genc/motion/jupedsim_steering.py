@@ -64,7 +64,7 @@ class JuPedSim:
         self.positions_m = np.zeros((n_agents, 2))
         self.headings_rad = np.zeros(n_agents)
         self.walking = np.zeros(n_agents, dtype=bool)
-        self._jupedsim = _library()
+        self._jupedsim = library()
         self._walkable = walkable
         self._simulation: jupedsim.Simulation = self._jupedsim.Simulation(
             model=self._jupedsim.CollisionFreeSpeedModelV2(),
@@ -217,7 +217,12 @@ class JuPedSim:
         self.headings_rad[moves] = np.arctan2(y_mps[moves], x_mps[moves])
 
 
-def _library() -> ModuleType:
+def library() -> ModuleType:
+    """The library itself.
+
+    Raises:
+        ExtraError: if it is not installed.
+    """
     try:
         return import_module("jupedsim")
     except ImportError:

@@ -14,13 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genc.motion.steering import Target
+from genc.plan.slots import ABREAST_M, MOST_ABREAST
 from genc.plan.walkable import Walkable
 
 Floats = NDArray[np.float64]
 
-ABREAST_M = 0.75
-"""Between the middles of two who walk side by side."""
-MOST_ABREAST = 3
 _ROW_M = 1.2
 """Between the rows of a formation."""
 _FORM_UP_M = 1.5

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,16 +10,14 @@ import numpy as np
 from genc.plan.arrivals import Cast
 from genc.plan.life import Life
 from genc.plan.occasion import Occasion
-from genc.plan.plan import Slot
+from genc.plan.plan import ROAMING, Slot
 from genc.plan.seating import Seat, Seating, reach_m, towards
 from genc.plan.services import Services
+from genc.plan.slots import ABREAST_M, MOST_ABREAST
 from genc.words.vocabulary import Action, Category
 
 TO_EACH_OTHER = (Action.DISCUSS, Action.MEET, Action.WAVE_AT)
 """Doings in which people face each other."""
-_ROAMING = (Action.WANDER, Action.CARRY)
-_ABREAST_M = 0.75
-_N_ABREAST = 3
 
 
 class Hosting:
@@ -91,11 +90,13 @@ class Hosting:
             return []
         if company is not None:
             return self.seating.beside(location, company.slot, n, from_s)
+        near_m = None
         if lives[0].workplace == location:
-            first = self.seating.near(location, self.venue.behind(location), from_s)
-            return [first, *self.seating.beside(location, first.slot, n - 1, from_s)]
-        if occasion.action is Action.WAVE_AT and lives[0].seat is not None:
-            first = self.seating.near(location, lives[0].seat.slot.position_m, from_s)
+            near_m = self.venue.behind(location)
+        elif occasion.action is Action.WAVE_AT and lives[0].seat is not None:
+            near_m = lives[0].seat.slot.position_m
+        if near_m is not None:
+            first = self.seating.near(location, near_m, from_s)
             return [first, *self.seating.beside(location, first.slot, n - 1, from_s)]
         is_table = self.venue.environment.locations[location].category is Category.FURNITURE
         if n > 1 and occasion.action in (Action.DISCUSS, Action.MEET) and not is_table:
@@ -106,14 +107,14 @@ class Hosting:
         """n places at a door, side by side; nobody stays there, so nobody holds them."""
         ahead = np.array([np.cos(slot.facing_rad), np.sin(slot.facing_rad)])
         aside = np.array([-ahead[1], ahead[0]])
-        row, column = np.divmod(np.arange(n), _N_ABREAST)
+        row, column = np.divmod(np.arange(n), MOST_ABREAST)
         offset = (column + 1) // 2 * np.where(column % 2, 1, -1)
-        points_m = slot.position_m + _ABREAST_M * (offset[:, None] * aside + row[:, None] * ahead)
+        points_m = slot.position_m + ABREAST_M * (offset[:, None] * aside + row[:, None] * ahead)
         return [Seat(Slot((x_m, y_m), slot.facing_rad)) for x_m, y_m in self.venue.walkable.snap(points_m).tolist()]
 
     def _stays(self, life: Life, action: Action, location: int) -> bool:
         """Whether somebody goes on where they are."""
-        if life.seat is None or life.location != location or action in _ROAMING:
+        if life.seat is None or life.location != location or action in ROAMING:
             return False
         last = life.activities[-1]
         return last.action not in (Action.QUEUE, Action.ENTER_EXIT) and not self.venue.is_service_slot(last)
@@ -165,5 +166,4 @@ class Hosting:
 
 
 def _apart_m(seat: Seat, other: Seat) -> float:
-    (x, y), (u, v) = seat.slot.position_m, other.slot.position_m
-    return float(np.hypot(x - u, y - v))
+    return math.dist(seat.slot.position_m, other.slot.position_m)

@@ -36,6 +36,13 @@ class Life:
         """When the last scheduled doing ends."""
         return self.activities[-1].end_s if self.activities else self.comes_s or 0.0
 
+    def add(self, activity: Activity, seat: Seat) -> None:
+        """Adds a doing to the row; the seat before is free from its beginning on."""
+        if self.seat is not None and self.seat is not seat:
+            self.seat.until_s = self.end_s
+        self.activities.append(activity)
+        self.seat, self.location = seat, activity.location
+
     def next(self, skip: int = 0) -> int | None:
         """The number of the next occasion, or of one after it; None at the end of the row."""
         at = self.n_done + skip

@@ -9,6 +9,8 @@ from genc.words.vocabulary import Action
 
 ON_THE_WAY = (Action.CARRY, Action.TALK_ON_PHONE)
 """What people can do while they walk."""
+ROAMING = (Action.WANDER, Action.CARRY)
+"""What people do about a place, not at one slot."""
 
 
 @dataclass(frozen=True)
@@ -93,3 +95,14 @@ class CrowdPlan:
     duration_s: float
     captions: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def members(self) -> dict[int, list[int]]:
+        """For each group, by number, its people; nobody for one that has only a caption."""
+        found: dict[int, list[int]] = {group: [] for group in range(len(self.captions))}
+        for agent, person in enumerate(self.people):
+            found.setdefault(person.group, []).append(agent)
+        return dict(sorted(found.items()))
+
+    def caption(self, group: int) -> str:
+        """The caption of a group; empty if it has none."""
+        return self.captions[group] if group < len(self.captions) else ""

@@ -197,13 +197,9 @@ class _Run:
         appears = not life.activities
         # who comes in is not seen before; who is there from the beginning waits in sight
         leave_s = (0.0 if life.comes_s is None else start_s) if appears else life.end_s
-        if life.seat is not None and life.seat is not seat:
-            life.seat.until_s = life.end_s
         location = self.location[occasion.number]
-        life.activities.append(
-            Activity(occasion.action, location, seat.slot, leave_s, start_s, end_s, occasion.number, partners)
-        )
-        life.seat, life.location = seat, location
+        times_s = leave_s, start_s, end_s
+        life.add(Activity(occasion.action, location, seat.slot, *times_s, occasion.number, partners), seat)
         life.n_done += 1
 
     # Coming, going, and the time between.
@@ -236,16 +232,8 @@ class _Run:
         location, seats = where
         for agent, seat in zip(agents, seats, strict=True):
             life, partners = self.lives[agent], tuple(sorted(other for other in agents if other != agent))
-            leave_s = life.end_s if life.activities else start_s
-            if life.seat is not None and life.seat is not seat:
-                life.seat.until_s = life.end_s
-            life.activities.append(
-                Activity(
-                    *(action, location, seat.slot, leave_s, start_s, start_s + lasts_s),
-                    *(self.n_occasions, partners, True),
-                )
-            )
-            life.seat, life.location = seat, location
+            times_s = life.end_s if life.activities else start_s, start_s, start_s + lasts_s
+            life.add(Activity(action, location, seat.slot, *times_s, self.n_occasions, partners, implied=True), seat)
         self.n_occasions += 1
 
     def _draw_out(self, occasion: Occasion, seats: Sequence[Seat], start_s: float) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, islice
 
 import numpy as np
 
@@ -68,10 +69,8 @@ class Seating:
 
     def near(self, location: int, position_m: tuple[float, float], from_s: float) -> Seat:
         """The free spot of a location that is nearest to a point; new ground is found where all are taken."""
-        spots = sorted(self.venue.places[location].spots, key=lambda spot: math.dist(spot.position_m, position_m))
-        for spot in spots:
-            if self.is_free(spot.position_m, from_s):
-                return self.hold(spot)
+        for spot in self._free_near(location, position_m, math.inf, from_s):
+            return self.hold(spot)
         for margin_m in _MARGINS_M:
             place = self.venue.environment.locations[location]
             for spot in more_spots(place, self.venue.walkable, margin_m, _TRIES, self.rng):
@@ -89,34 +88,36 @@ class Seating:
         """n free spots of a location next to each other, or room for all as near to it as may be."""
         spots = self.venue.places[location].spots
         for i in self.rng.integers(len(spots), size=_TRIES).tolist():
-            near = self._free_near(location, spots[i].position_m, reach_m(n), from_s)
-            if len(near) >= n:
-                return [self.hold(spot) for spot in near[:n]]
+            near = list(islice(self._free_near(location, spots[i].position_m, reach_m(n), from_s), n))
+            if len(near) == n:
+                return [self.hold(spot) for spot in near]
         return [self.any_spot(location, from_s)] if n == 1 else self._outside(location, n, from_s)
 
     def beside(self, location: int, company: Slot, n: int, from_s: float) -> list[Seat]:
         """n seats next to somebody who has one: spots of the location, else free ground round them."""
         found: list[Seat] = []
         for _ in range(n):
-            near = self._free_near(location, company.position_m, reach_m(n), from_s) or self._ground(company, from_s)
-            found.append(self.hold(near[0]) if near else self.near(location, company.position_m, from_s))
+            near = chain(
+                self._free_near(location, company.position_m, reach_m(n), from_s), self._ground(company, from_s)
+            )
+            spot = next(near, None)
+            found.append(self.hold(spot) if spot else self.near(location, company.position_m, from_s))
         return found
 
-    def _free_near(self, location: int, point_m: tuple[float, float], reach_m: float, from_s: float) -> list[Slot]:
+    def _free_near(self, location: int, point_m: tuple[float, float], reach_m: float, from_s: float) -> Iterator[Slot]:
         """The free spots of a location within reach of a point, nearest first."""
-        spots = [(math.dist(spot.position_m, point_m), i) for i, spot in enumerate(self.venue.places[location].spots)]
-        near = [self.venue.places[location].spots[i] for away_m, i in sorted(spots) if away_m <= reach_m]
-        return [spot for spot in near if self.is_free(spot.position_m, from_s)]
+        spots = self.venue.places[location].spots
+        away_m = [math.dist(spot.position_m, point_m) for spot in spots]
+        for i in sorted(range(len(spots)), key=away_m.__getitem__):
+            if away_m[i] <= reach_m and self.is_free(spots[i].position_m, from_s):
+                yield spots[i]
 
-    def _ground(self, company: Slot, from_s: float) -> list[Slot]:
+    def _ground(self, company: Slot, from_s: float) -> Iterator[Slot]:
         """Free points round somebody, nearest first, with the same outlook."""
         points_m = (np.array(company.position_m) + _ROUND_M).tolist()
-        fits = self.venue.walkable.free(points_m)
-        return [
-            Slot((x, y), company.facing_rad)
-            for (x, y), fit in zip(points_m, fits, strict=True)
-            if fit and self.is_free((x, y), from_s)
-        ]
+        for (x, y), fits in zip(points_m, self.venue.walkable.free(points_m), strict=True):
+            if fits and self.is_free((x, y), from_s):
+                yield Slot((x, y), company.facing_rad)
 
     def _outside(self, location: int, n: int, from_s: float) -> list[Seat]:
         """n seats in a circle round a place where all spots are taken, further and further out."""

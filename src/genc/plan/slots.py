@@ -24,6 +24,9 @@ Floats = NDArray[np.float64]
 APART_M = 0.7
 LINE_SPACING_M = 0.75
 LONGEST_LINE = 24
+ABREAST_M = 0.75
+"""Between the middles of two who walk or come in side by side."""
+MOST_ABREAST = 3
 _KEPT_FOR_LINE = 8
 """Nobody just stands where so many of a line do."""
 MOST_SPOTS = 400

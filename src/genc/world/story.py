@@ -37,10 +37,8 @@ def tell_group(world: World, group: int) -> list[str]:
     Raises:
         BriefError: if the world has no such group.
     """
-    people = world.plan.people
-    _check(group, 1 + max((person.group for person in people), default=-1), "group")
-    members = [agent for agent, person in enumerate(people) if person.group == group]
-    caption = world.plan.captions[group] if group < len(world.plan.captions) else ""
+    _check(group, 1 + max((person.group for person in world.plan.people), default=-1), "group")
+    members, caption = world.plan.members()[group], world.plan.caption(group)
     lines = [f"Group {group}, {names(members, most=15)}" + (f": {caption}" if caption else "")]
     for happening in sorted(happenings(world, members), key=_told_s):
         agents = happening.agents

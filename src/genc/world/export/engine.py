@@ -99,11 +99,8 @@ def _environment(world: World, axes: Axes) -> list[dict[str, Any]]:
 
 
 def _groups(world: World) -> list[dict[str, Any]]:
-    members: dict[int, list[int]] = {group: [] for group in range(len(world.plan.captions))}
-    for agent, person in enumerate(world.plan.people):
-        members.setdefault(person.group, []).append(agent)
-    captions = dict(enumerate(world.plan.captions))
-    return [{"id": g, "caption": captions.get(g, ""), "agents": members[g]} for g in sorted(members)]
+    plan = world.plan
+    return [{"id": g, "caption": plan.caption(g), "agents": agents} for g, agents in plan.members().items()]
 
 
 def _agents(world: World, axes: Axes) -> list[dict[str, Any]]:

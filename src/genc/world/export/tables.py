@@ -79,13 +79,13 @@ def activities(world: World) -> dict[str, list[Any]]:
 
 def people(world: World) -> dict[str, list[Any]]:
     """Everybody, by column: agent, group, preferred speed, leaves (1 or 0), caption of the group."""
-    captions, crowd = world.plan.captions, world.plan.people
+    crowd = world.plan.people
     return {
         "agent": list(range(len(crowd))),
         "group": [person.group for person in crowd],
         "speed_mps": [person.speed_mps for person in crowd],
         "leaves": [int(person.leaves) for person in crowd],
-        "caption": [captions[person.group] if person.group < len(captions) else "" for person in crowd],
+        "caption": [world.plan.caption(person.group) for person in crowd],
     }
 
 

@@ -49,14 +49,12 @@ def add_people(stage: Any, world: World, times: TimeCodes) -> None:
 def _add_groups(stage: Any, world: World, paths: list[str]) -> None:
     from pxr import UsdGeom
 
-    members: dict[int, list[str]] = {}
-    for path, person in zip(paths, world.plan.people, strict=True):
-        members.setdefault(person.group, []).append(path)
-    captions = dict(enumerate(world.plan.captions))
-    for group, targets in sorted(members.items()):
+    for group, agents in world.plan.members().items():
+        if not agents:
+            continue
         prim = UsdGeom.Scope.Define(stage, f"{GROUPS}/Group_{group}").GetPrim()
-        constant(prim, "genc:caption", "String").Set(captions.get(group, ""))
-        prim.CreateRelationship("genc:members").SetTargets(targets)
+        constant(prim, "genc:caption", "String").Set(world.plan.caption(group))
+        prim.CreateRelationship("genc:members").SetTargets([paths[agent] for agent in agents])
 
 
 def _add_path(figure: Any, motion: Motion, agent: int, times: TimeCodes) -> None:
