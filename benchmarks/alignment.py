@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,7 +19,8 @@ from scipy.spatial import KDTree
 
 from genc import populate
 from genc.motion.motion import Executed, Status
-from genc.plan.plan import ON_THE_WAY, Activity
+from genc.plan.ground import ground_polygon, on_ground
+from genc.plan.plan import ON_THE_WAY, ROAMING, Activity
 from genc.plan.walkable import Walkable
 from genc.words.vocabulary import Action
 from genc.world.world import World
@@ -40,7 +42,8 @@ BODIES_OVERLAP_M = 0.3
 """Two bodies of radius 0.2 m whose middles are nearer than this overlap by more than 0.1 m."""
 NEAR_M = 2.0
 AT_SLOT_M = 0.3
-ABOUT = (Action.WANDER, Action.CARRY, Action.ENTER_EXIT, Action.QUEUE)
+ELSEWHERE_M = 3.0
+ABOUT = (*ROAMING, Action.ENTER_EXIT, Action.QUEUE)
 """Doings that do not stand at one slot."""
 EVERY = 2
 """Frames looked at: every second."""
@@ -84,12 +87,10 @@ def _bodies(world: World) -> Figures:
         if len(here_m):
             n_overlap += len(np.unique(KDTree(here_m).query_pairs(BODIES_OVERLAP_M, output_type="ndarray")))
     seen_m = motion.positions_m[motion.present].astype(float)
-    # the file keeps positions to half a centimetre
-    ground = Walkable.of(world.plan.environment)
-    shrunk = Walkable(ground.obstacles_m + 0.01 * np.array([1, 1, -1, -1]), ground.bounds_m)
+    ground = ground_polygon(Walkable.of(world.plan.environment))
     return {
         "overlap_percent": 100 * n_overlap / max(n_seen, 1),
-        "off_ground_percent": 100 * float(shrunk.off(seen_m).mean()),
+        "off_ground_percent": 100 * float(1 - on_ground(ground, seen_m).mean()),
     }
 
 
@@ -122,13 +123,14 @@ def _speeds(world: World) -> Figures:
 def _meetings(world: World) -> Figures:
     """At the beginning of what stands at a slot: the share of people not at it, and of those without a partner near."""
     motion, last = world.motion, len(world.motion.present) - 1
-    away, alone = [], []
+    away, elsewhere, alone = [], [], []
     for row, activity in _stationary(world):
         frame = min(int(np.ceil((row.start_s + 0.3) / motion.dt_s)), last)
         if not motion.present[frame, row.agent]:
             continue
         here_m = motion.positions_m[frame, row.agent]
         away.append(np.linalg.norm(here_m - row.position_m) > AT_SLOT_M)
+        elsewhere.append(math.dist(row.position_m, activity.slot.position_m) > ELSEWHERE_M)
         partners = [other for other in activity.partners if motion.present[frame, other]]
         if partners and row.status is Status.DONE:
             apart_m = np.linalg.norm(motion.positions_m[frame, partners] - here_m, axis=1)
@@ -136,6 +138,7 @@ def _meetings(world: World) -> Figures:
     waits_s = [row.start_s - row.arrive_s for row in motion.executed if not np.isnan(row.start_s)]
     return {
         "away_from_slot_percent": 100 * float(np.mean(away)),
+        "elsewhere_percent": 100 * float(np.mean(elsewhere)),
         "partner_far_percent": 100 * float(np.mean(alone)) if alone else 0.0,
         "mean_wait_s": float(np.mean(waits_s)),
     }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from scipy.spatial import KDTree
@@ -11,9 +13,12 @@ from genc.motion.executor import Options, simulate
 from genc.motion.jupedsim_steering import JuPedSim
 from genc.motion.motion import Status
 from genc.motion.steering import Target
+from genc.plan.ground import ground_polygon, on_ground
+from genc.plan.plan import ON_THE_WAY, ROAMING
 from genc.plan.slots import places_of
 from genc.plan.walkable import Walkable
 from genc.scenario.corpus import load_corpus
+from genc.words.vocabulary import Action
 
 FIELD = Walkable(np.empty((0, 4)), (-20.0, -20.0, 20.0, 20.0))
 THEMES = ("train station", "hospital")
@@ -35,7 +40,8 @@ def played(request):
 
 def test_nobody_is_ever_off_the_ground(played):
     plan, motion = played
-    assert not Walkable.of(plan.environment).off(motion.positions_m[motion.present]).any()
+    ground = ground_polygon(Walkable.of(plan.environment))
+    assert on_ground(ground, motion.positions_m[motion.present]).all()
 
 
 def test_bodies_hardly_ever_overlap(played):
@@ -58,6 +64,20 @@ def test_hardly_anything_is_given_up(played):
     _, motion = played
     timeouts = sum(done.status is Status.TIMEOUT for done in motion.executed)
     assert timeouts <= 0.01 * len(motion.executed)
+
+
+def test_everything_is_done_where_it_was_planned_or_close_by(played):
+    plan, motion = played
+    for done in motion.executed:
+        activity = plan.people[done.agent].activities[done.step]
+        if done.status is Status.DONE and activity.action not in (Action.QUEUE, *ROAMING, *ON_THE_WAY):
+            assert math.dist(done.position_m, activity.slot.position_m) < 8.0, (done, activity)
+
+
+def test_no_position_is_on_an_edge_of_the_ground_when_written_to_the_centimetre(played):
+    plan, motion = played
+    positions_m = np.round(motion.positions_m[motion.present].astype(float), 2)
+    assert on_ground(ground_polygon(Walkable.of(plan.environment)), positions_m).all()
 
 
 def test_the_same_plan_gives_the_same_motion(played):

@@ -142,6 +142,22 @@ def test_friends_queue_together_and_go_to_the_counter_together():
     assert math.dist(uses[0].position_m, uses[1].position_m) > 0.4
 
 
+def test_who_waits_at_the_counter_for_a_friend_is_no_longer_in_line():
+    """The served one is there first; the friend, who only stands beside, comes the long way round."""
+    draft = Draft(3).do([0, 1], Action.QUEUE, VAN, list(LINE[:2]), 0.0, 2.0)
+    draft.do([0, 1], Action.OBJECT_INTERACT, VAN, [SERVED, at(28.0, 20.0)], 2.0, 20.0)
+    draft.do([0], Action.READ, LAWN, [LEFT], 40.0, 100.0)
+    for k, start_s in enumerate((30.0, 50.0, 70.0)):  # the line goes on moving
+        draft.do([2], Action.QUEUE, VAN, [LINE[0]], start_s, start_s + 1)
+        draft.do([2], Action.SIT, BENCH, [at(28.0, 13.0)], start_s + 8, start_s + 9 + k)
+    motion = play(draft.plan())
+    reads = done_by(motion, 0)[2]
+    assert reads.status is Status.DONE
+    assert math.dist(reads.position_m, LEFT.position_m) < 0.1
+    during = motion.positions_m[frame_of(motion, reads.start_s) : frame_of(motion, reads.end_s), 0]
+    assert np.allclose(during, LEFT.position_m, atol=0.1)
+
+
 def test_a_line_without_a_service_is_left_at_its_head():
     draft = Draft(2)
     for agent in (0, 1):

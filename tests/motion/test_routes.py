@@ -7,9 +7,11 @@ from hypothesis import strategies as st
 
 from genc.motion.routes import Order, find_routes
 from genc.motion.steering import Target
+from genc.plan.ground import ground_polygon, on_ground
 from genc.plan.walkable import Walkable
 
 WALL = Walkable(np.array([[10.0, -5.0, 12.0, 5.0]]), (-20.0, -20.0, 40.0, 20.0))
+GROUND = ground_polygon(WALL)
 FIELD = Walkable(np.empty((0, 4)), (-20.0, -20.0, 60.0, 20.0))
 
 
@@ -38,7 +40,7 @@ def test_everybody_gets_from_start_to_goal_clear_of_the_footprints(n, x_m, y_m):
         assert np.allclose(route.points_m[-1], WALL.snap(order.target.point_m)[0])
         assert route.speeds_mps.max() <= order.speed_mps + 1e-9
         times_s = np.linspace(0, route.durations_s.sum(), 80)
-        assert not WALL.off([at(route, time_s) for time_s in times_s]).any()
+        assert on_ground(GROUND, [at(route, time_s) for time_s in times_s]).all()
 
 
 def test_two_walk_side_by_side_at_one_speed():

@@ -157,8 +157,7 @@ class _Play:
         line, company = self.lines[activity.location], self._company(agent, step)
         if agent in line.served:
             return (yield from self._walk(agent, line.served[agent]))
-        together = self.occasions[activity.occasion].steps
-        if self._lines_up(agent, step) and not any(other in line.served for other in together):
+        if self._waits_in_line(agent, self.occasions[activity.occasion]):
             return (yield from self._walk(agent, line.tail(), company, _NEAR_LINE_M))
         if activity.action in _PASSING:
             return (yield from self._walk(agent, activity.slot, company, _NEAR_DOOR_M))
@@ -197,7 +196,7 @@ class _Play:
             occasion.here.append(agent)
             if len(occasion.here) == len(occasion.steps):
                 self.clock.fire(occasion.gathered)
-            elif self._lines_up(agent, occasion.steps[agent]):
+            elif self._waits_in_line(agent, occasion):
                 self.lines[occasion.activity.location].gather(agent)
             limit_s = max(self.clock.now_s, occasion.activity.start_s) + self.options.patience_s
             yield Wait(occasion.gathered, limit_s)
@@ -363,6 +362,11 @@ class _Play:
         if activity.action is Action.QUEUE:
             return True
         return activity.action not in _PASSING and activity.slot.position_m in self.service[activity.location]
+
+    def _waits_in_line(self, agent: int, occasion: Occasion) -> bool:
+        """Whether one stands in line for an occasion, because nobody of it has a service slot yet."""
+        served = self.lines[occasion.activity.location].served
+        return self._lines_up(agent, occasion.steps[agent]) and not any(other in served for other in occasion.steps)
 
     def _next_is_service(self, agent: int, occasion: Occasion) -> bool:
         """Whether the next thing that an agent of this occasion does is to be served here, with nobody else."""

@@ -24,7 +24,7 @@ from genc.errors import ExtraError
 from genc.motion.routes import Order, find_routes
 from genc.motion.steering import Target
 from genc.motion.walk import BROAD, Company, Walk, Way
-from genc.plan.ground import ground_polygon
+from genc.plan.ground import ground_polygon, on_ground
 from genc.plan.walkable import Walkable
 
 if TYPE_CHECKING:
@@ -36,6 +36,8 @@ DT_S = 0.1
 """One step of the steering."""
 N_ITERATIONS = 2
 """Iterations of the model in it."""
+_EDGE_M = 0.01
+"""Nobody's middle comes so near to the edge of the ground that rounding to centimetres puts it there."""
 _GIVE_M = 0.15
 """How much wider the ground is for the model than it is. People are pushed over its edge in a press, and the library
 stops at anybody who is off its ground; so whoever is off the real one is put back before the next iteration."""
@@ -66,6 +68,7 @@ class JuPedSim:
         self.walking = np.zeros(n_agents, dtype=bool)
         self._jupedsim = library()
         self._walkable = walkable
+        self._ground = ground_polygon(walkable, -_EDGE_M)
         self._simulation: jupedsim.Simulation = self._jupedsim.Simulation(
             model=self._jupedsim.CollisionFreeSpeedModelV2(),
             geometry=ground_polygon(walkable, _GIVE_M),
@@ -204,7 +207,7 @@ class JuPedSim:
         seen = [(self._agents.get(body.id), body.position) for body in self._simulation.agents()]
         agents = np.array([agent for agent, _ in seen if agent is not None], dtype=int)
         positions_m = np.array([position_m for agent, position_m in seen if agent is not None]).reshape(-1, 2)
-        off = self._walkable.off(positions_m)
+        off = ~on_ground(self._ground, positions_m)
         self.positions_m[agents[~off]] = positions_m[~off]
         for agent in agents[off].tolist():
             self._take_out(agent)

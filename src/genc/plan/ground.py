@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from genc.plan.walkable import BODY_RADIUS_M, Walkable
 
 if TYPE_CHECKING:
@@ -22,7 +25,7 @@ def ground_polygon(walkable: Walkable, give_m: float = 0.0) -> Polygon:
 
     Args:
         walkable: the ground.
-        give_m: how much wider the ground is to be at every edge.
+        give_m: how much wider the ground is to be at every edge; narrower, if negative.
     """
     import shapely
 
@@ -33,4 +36,13 @@ def ground_polygon(walkable: Walkable, give_m: float = 0.0) -> Polygon:
     simple = shapely.union_all([solids, joined.simplify(_FLAT_M)]).buffer(-give_m, join_style="mitre")
     parts = shapely.get_parts(bounds.difference(simple))
     polygon: Polygon = max(parts, key=lambda part: part.area)
+    shapely.prepare(polygon)
     return polygon
+
+
+def on_ground(ground: Polygon, points_m: ArrayLike) -> NDArray[np.bool_]:
+    """bool `[n]`: which points `[n, 2]` lie inside such a polygon, not on its edge."""
+    import shapely
+
+    x_m, y_m = np.asarray(points_m, dtype=float).reshape(-1, 2).T
+    return np.asarray(shapely.contains_xy(ground, x_m, y_m), dtype=bool)

@@ -83,12 +83,13 @@ class Walkable:
 
     def clear(self, points_m: ArrayLike) -> NDArray[np.bool_]:
         """bool `[n]`: inside the bounds and a body's radius clear of every obstacle, perhaps out of reach."""
-        return self._outside(np.asarray(points_m, dtype=float).reshape(-1, 2), self._kept_clear)
-
-    def off(self, points_m: ArrayLike) -> NDArray[np.bool_]:
-        """bool `[n]`: inside a footprint, or out of bounds; a body's middle must never be there."""
         points = np.asarray(points_m, dtype=float).reshape(-1, 2)
-        return ~self._outside(points, self.obstacles_m)
+        x, y = points[:, :1], points[:, 1:]
+        box = self._kept_clear
+        hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
+        low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
+        inside = ((points >= low) & (points <= high)).all(axis=1)
+        return np.asarray(inside & ~hit.any(axis=1), dtype=bool)
 
     def snap(self, points_m: ArrayLike) -> Floats:
         """`[n, 2]`: the points themselves where they are free, else the nearest free ground."""
@@ -133,14 +134,6 @@ class Walkable:
         # where no way is known the straight line stands in, so that nothing is infinitely far
         best: Floats = np.where(blocked & np.isfinite(round_about), round_about, straight)
         return best
-
-    def _outside(self, points: Floats, box: Floats) -> NDArray[np.bool_]:
-        """bool `[n]`: within the bounds and outside all of these boxes."""
-        x, y = points[:, :1], points[:, 1:]
-        hit = (x > box[:, 0]) & (x < box[:, 2]) & (y > box[:, 1]) & (y < box[:, 3])
-        low, high = np.array(self.bounds_m[:2]), np.array(self.bounds_m[2:])
-        inside = ((points >= low) & (points <= high)).all(axis=1)
-        return np.asarray(inside & ~hit.any(axis=1), dtype=bool)
 
     def _blocked(self, starts: Floats, ends: Floats) -> NDArray[np.bool_]:
         """bool `[n]`: the straight line from start to end crosses what is kept clear (slab test)."""
