@@ -97,20 +97,20 @@ def _draft(scenarios: Sequence[Scenario], seed: int) -> _Draft:
     for i, (scenario, part) in enumerate(zip(scenarios, parts, strict=True)):
         said = tuple(note(text) for text in (scenario.sentence, *scenario.paraphrases))
         stories.append(Story(scenario.slug, scenario.theme, part, said))
-        rehearsal = rehearse(scenario, np.random.default_rng([seed, i]))
-        graph = weave(rehearsal.records)
-        # groups of the graph come in order of their first event, those of the scenario as written
-        for group, part_of in zip(graph.groups(), _written_order(graph, rehearsal.group_of), strict=True):
+        for group, said_of_it in told_groups(scenario, np.random.default_rng([seed, i])):
             tokens.append(encode(group))
             story.append(i)
-            caption.append(note(scenario.groups[part_of].caption))
+            caption.append(note(said_of_it))
     return _Draft(tuple(number), tuple(stories), np.array(story), np.array(caption), tuple(tokens))
 
 
-def _written_order(graph: CrowdGraph, group_of: Sequence[int]) -> list[int]:
-    """For each connected part of a scenario's graph, the group of the scenario that it is."""
+def told_groups(scenario: Scenario, rng: np.random.Generator) -> list[tuple[CrowdGraph, str]]:
+    """The groups of a scenario, rehearsed, each with its caption; in order of their first event."""
+    rehearsal = rehearse(scenario, rng)
+    graph = weave(rehearsal.records)
     _, first = np.unique(graph.part, return_index=True)
-    return [group_of[agent] for agent in graph.agent[first].tolist()]
+    captions = [rehearsal.captions[rehearsal.group_of[agent]] for agent in graph.agent[first].tolist()]
+    return list(zip(graph.groups(), captions, strict=True))
 
 
 def _manifest(scenarios: Sequence[Scenario], draft: _Draft, encoder: TextEncoder, seed: int) -> Manifest:

@@ -100,14 +100,14 @@ class Dataset:
     tokens: tuple[Tokens, ...]
     embeddings: NDArray[np.float32]
 
-    def rows(self, split: str) -> NDArray[np.int64]:
-        """The groups of one part of the split."""
-        inside = np.array([s.split == split for s in self.stories])
+    def rows(self, split: str, theme: str | None = None) -> NDArray[np.int64]:
+        """The groups of one part of the split, of all themes or of one."""
+        inside = np.array([s.split == split and theme in (None, s.theme) for s in self.stories])
         return np.flatnonzero(inside[self.story])
 
-    def split(self, name: str) -> list[Sample]:
-        """The samples of `train`, `validation` or `test`."""
-        return [self._sample(int(g)) for g in self.rows(name)]
+    def split(self, name: str, theme: str | None = None) -> list[Sample]:
+        """The samples of `train`, `validation` or `test`, of all themes or of one."""
+        return [self._sample(int(g)) for g in self.rows(name, theme)]
 
     @cached_property
     def counts(self) -> NDArray[np.int64]:

@@ -1,16 +1,16 @@
 """A training run on disk: it survives `kill -9`, and the same command goes on to the same weights.
 
-run.json                 how far it is; names the state to go on from; replaced in one rename after each epoch
-state-NNNN.safetensors   weights, their running average, the optimizer, the best weights so far
+run.json                 how far it is; names the state to go on from; replaced in one rename with each state
+state-NNNN.safetensors   all that the trainer needs to go on
 model.safetensors, config.json   the finished model
 """
 
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import torch
 from safetensors import SafetensorError
@@ -21,48 +21,85 @@ from tqdm import tqdm
 from genc.errors import CheckpointError
 from genc.files import ensure_folder, write_text, written_beside
 from genc.learn.dataset import Dataset
+from genc.learn.paper import PaperTrainer, PaperTraining
 from genc.learn.train import TrainConfig, Trainer
-from genc.model.checkpoint import save_checkpoint
+from genc.model.checkpoint import Model, save_checkpoint
 from genc.model.codec import CodecConfig
+from genc.model.paper.vgae import PaperConfig
 
 
-@dataclass
-class _Best:
-    """The weights that did best on held-out scenarios; the counts part is judged apart from the rest, for they share
-    no weights."""
+class Trainee(Protocol):
+    """Something that trains in epochs; `state`, `epoch` and `history` are all that a later run needs to go on."""
 
-    group: float = float("inf")
-    counts: float = float("inf")
-    group_epoch: int = 0
-    counts_epoch: int = 0
+    epoch: int
+    history: list[dict[str, float]]
+
+    @property
+    def finished(self) -> bool:
+        """Whether there is nothing more to train."""
+        ...
+
+    def run_epoch(self) -> str:
+        """Trains for one epoch and says how it went."""
+        ...
+
+    def state(self) -> dict[str, Tensor]:
+        """Everything but `epoch` and `history`, as named tensors."""
+        ...
+
+    def restore(self, state: dict[str, Tensor], epoch: int, history: list[dict[str, float]]) -> None:
+        """Goes back to what `state` gave after that epoch."""
+        ...
+
+    def result(self) -> tuple[Model, dict[str, object]]:
+        """The model to keep, and what its card says of the run."""
+        ...
 
 
-def train(dataset: Dataset, folder: Path | str, config: TrainConfig, model: CodecConfig, device: str = "cpu") -> Path:
+def train(
+    dataset: Dataset,
+    folder: Path | str,
+    config: TrainConfig | PaperTraining,
+    model: CodecConfig | PaperConfig,
+    device: str = "cpu",
+) -> Path:
     """Trains to the end of the schedule, or until held-out scenarios gain nothing any more; gives the folder.
 
-    Called again after an interruption it goes on after the last whole epoch, on the CPU to the same weights bit for
-    bit as a run without interruption (with the same number of threads).
+    Called again after an interruption it goes on after the last epoch that was saved, on the CPU to the same weights
+    bit for bit as a run without interruption (with the same number of threads).
+
+    Args:
+        config, model: both of the `codec` generator or both of `paper`.
 
     Raises:
         CheckpointError: if the folder holds a run of another dataset or other settings, or the device is missing.
+        DatasetError: if the dataset has nothing to train on.
         OutputError: if it cannot be written.
     """
     _check_device(device)
     place = ensure_folder(folder)
     plan = {"dataset": dataset.manifest.hash, "train": asdict(config), "model": asdict(model)}
-    trainer = Trainer(dataset, model, config, torch.device(device))
-    best, kept = _resume(place, plan, trainer)
-    with tqdm(total=config.epochs, initial=trainer.epoch, desc="training", unit="epoch", disable=None) as bar:
-        while not _finished(trainer, best):
-            losses = trainer.run_epoch()
-            _keep(trainer, best, kept, losses.group, losses.counts)
-            _save(place, plan, trainer, best, kept)
-            bar.set_postfix_str(f"held out {losses.group:.2f} nats a group, best {best.group:.2f}")
+    trainee = _trainee(dataset, config, model, torch.device(device))
+    _resume(place, plan, trainee)
+    with tqdm(total=config.epochs, initial=trainee.epoch, desc="training", unit="epoch", disable=None) as bar:
+        while not trainee.finished:
+            bar.set_postfix_str(trainee.run_epoch())
             bar.update()
-    trainer.averaged.load_state_dict(kept)
-    card = {**plan, "best": asdict(best), "epochs_run": trainer.epoch, "themes": dataset.manifest.themes}
-    save_checkpoint(place, trainer.averaged, dataset.manifest.encoder, card)
+            if trainee.finished or trainee.epoch % config.save_every == 0:
+                _save(place, plan, trainee)
+    best, card = trainee.result()
+    save_checkpoint(place, best, dataset.manifest.encoder, {**plan, **card, "themes": dataset.manifest.themes})
     return place
+
+
+def _trainee(
+    dataset: Dataset, config: TrainConfig | PaperTraining, model: CodecConfig | PaperConfig, device: torch.device
+) -> Trainee:
+    if isinstance(config, PaperTraining) and isinstance(model, PaperConfig):
+        return PaperTrainer(dataset, model, config, device)
+    if isinstance(config, TrainConfig) and isinstance(model, CodecConfig):
+        return Trainer(dataset, model, config, device)
+    raise TypeError("the settings of the schedule and of the network are those of two generators")
 
 
 def _check_device(device: str) -> None:
@@ -71,29 +108,11 @@ def _check_device(device: str) -> None:
         raise CheckpointError(f"no device {device!r} was found: choose one of {', '.join(['cpu', *cuda])}")
 
 
-def _finished(trainer: Trainer, best: _Best) -> bool:
-    stale = trainer.epoch - max(best.group_epoch, best.counts_epoch)
-    return trainer.epoch >= trainer.config.epochs or stale >= trainer.config.patience
-
-
-def _keep(trainer: Trainer, best: _Best, kept: dict[str, Tensor], group: float, counts: float) -> None:
-    state = trainer.averaged.state_dict()
-    better_group, better_counts = group < best.group, counts < best.counts
-    for name, tensor in state.items():
-        if better_counts if name.startswith("counts.") else better_group:
-            kept[name] = tensor.detach().clone()
-    if better_group:
-        best.group, best.group_epoch = group, trainer.epoch
-    if better_counts:
-        best.counts, best.counts_epoch = counts, trainer.epoch
-
-
-def _save(place: Path, plan: dict[str, Any], trainer: Trainer, best: _Best, kept: dict[str, Tensor]) -> None:
-    state = {f"best.{name}": tensor for name, tensor in kept.items()} | trainer.state()
-    name = f"state-{trainer.epoch:04d}.safetensors"
+def _save(place: Path, plan: dict[str, Any], trainee: Trainee) -> None:
+    name = f"state-{trainee.epoch:04d}.safetensors"
     with written_beside(place / name) as beside:
-        beside.write_bytes(save({key: tensor.contiguous() for key, tensor in state.items()}))
-    said = {"plan": plan, "epoch": trainer.epoch, "state": name, "best": asdict(best), "history": trainer.history}
+        beside.write_bytes(save({key: tensor.contiguous() for key, tensor in trainee.state().items()}))
+    said = {"plan": plan, "epoch": trainee.epoch, "state": name, "history": trainee.history}
     write_text(place / "run.json", json.dumps(said, indent=1) + "\n")
     _drop_others(place, name)
 
@@ -104,10 +123,10 @@ def _drop_others(place: Path, state: str) -> None:
             other.unlink()
 
 
-def _resume(place: Path, plan: dict[str, Any], trainer: Trainer) -> tuple[_Best, dict[str, Tensor]]:
+def _resume(place: Path, plan: dict[str, Any], trainee: Trainee) -> None:
     path = place / "run.json"
     if not path.exists():
-        return _Best(), {}
+        return
     try:
         said = json.loads(path.read_text(encoding="utf-8"))
         if said["plan"] != json.loads(json.dumps(plan)):
@@ -117,9 +136,7 @@ def _resume(place: Path, plan: dict[str, Any], trainer: Trainer) -> tuple[_Best,
             )
         state = load_file(place / said["state"])
         _drop_others(place, said["state"])
-        trainer.restore(state, said["epoch"], said["history"])
-        kept = {key.removeprefix("best."): tensor for key, tensor in state.items() if key.startswith("best.")}
-        return _Best(**said["best"]), kept
+        trainee.restore(state, said["epoch"], said["history"])
     except (OSError, ValueError, KeyError, TypeError, RuntimeError, SafetensorError) as error:
         raise CheckpointError(
             f"{path}: the run cannot be gone on with ({error!r}): remove {place} and begin anew"

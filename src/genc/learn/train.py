@@ -1,4 +1,4 @@
-"""Training of the `codec` generator: resumable to the bit, with early stopping on held-out scenarios."""
+"""Training of the `codec` generator, with early stopping on held-out scenarios."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from torch import Tensor, nn
 
 from genc.learn.batches import Asking, Batch, Batches
 from genc.learn.dataset import Dataset
+from genc.learn.state import named_state, restore_state, under
 from genc.model.codec import CodecConfig, CodecModel, Terms
 
 
@@ -22,6 +23,7 @@ class TrainConfig:
         free_nats: the KL term (per group, both latents) is not pressed below this.
         average: decay of the running average of the weights that is validated and kept.
         patience: epochs without gain on held-out scenarios after which training ends.
+        save_every: epochs between two savings of the run.
         asking: how groups are asked for, and what is left out of the asking how often.
     """
 
@@ -32,6 +34,7 @@ class TrainConfig:
     free_nats: float = 3.0
     average: float = 0.998
     patience: int = 15
+    save_every: int = 1
     seed: int = 0
     asking: Asking = field(default_factory=Asking)
 
@@ -52,7 +55,10 @@ class Losses:
 
 
 class Trainer:
-    """Trains in epochs; `progress` is everything that a later run needs to go on."""
+    """A `Trainee`; what it keeps are the averaged weights that did best on held-out scenarios.
+
+    The part that draws counts is judged apart from the rest, for they share no weights.
+    """
 
     def __init__(self, dataset: Dataset, model: CodecConfig, config: TrainConfig, device: torch.device) -> None:
         self.config, self.device = config, device
@@ -71,9 +77,16 @@ class Trainer:
         self.held_out = Batches(dataset, dataset.rows("validation"), device)
         self.epoch = 0
         self.history: list[dict[str, float]] = []
+        self.kept: dict[str, Tensor] = {}
 
-    def run_epoch(self) -> Losses:
-        """Trains for one epoch and gives the losses on held-out scenarios."""
+    @property
+    def finished(self) -> bool:
+        """Whether the schedule has come to its end, or held-out scenarios gain nothing any more."""
+        stale = self.epoch - max(self._best("group")[1], self._best("counts")[1])
+        return self.epoch >= self.config.epochs or stale >= self.config.patience
+
+    def run_epoch(self) -> str:
+        """Trains for one epoch and says how held-out scenarios fare."""
         # all chance of an epoch follows from (seed, epoch): a resumed run needs no generator state
         torch.manual_seed(self.config.seed * 100_003 + self.epoch)
         generator = torch.Generator().manual_seed(self.config.seed * 100_003 + self.epoch)
@@ -84,8 +97,9 @@ class Trainer:
             self._step(batch, self.epoch + i / n_batches)
         self.epoch += 1
         losses = self.validate()
-        self.history.append({"epoch": self.epoch, **asdict(losses)})
-        return losses
+        self.history.append({"epoch": self.epoch, **asdict(losses), "group": losses.group})
+        self._keep()
+        return f"held out {losses.group:.2f} nats a group, best {self._best('group')[0]:.2f}"
 
     @torch.inference_mode()
     def validate(self) -> Losses:
@@ -104,23 +118,31 @@ class Trainer:
 
     def state(self) -> dict[str, Tensor]:
         """Everything but `epoch` and `history` that a later run needs, as named tensors."""
-        named = {f"model.{k}": v for k, v in self.model.state_dict().items()}
-        named |= {f"averaged.{k}": v for k, v in self.averaged.state_dict().items()}
-        for index, moments in self.optimizer.state_dict()["state"].items():
-            named |= {f"optimizer.{index}.{k}": v for k, v in moments.items()}
-        return named
+        modules = {"model": self.model, "averaged": self.averaged}
+        return named_state(modules, self.optimizer) | {f"best.{name}": tensor for name, tensor in self.kept.items()}
 
     def restore(self, state: dict[str, Tensor], epoch: int, history: list[dict[str, float]]) -> None:
         """Goes back to what `state` gave after that epoch."""
-        self.model.load_state_dict(_under("model.", state))
-        self.averaged.load_state_dict(_under("averaged.", state))
-        optimizer = self.optimizer.state_dict()
-        moments: dict[int, dict[str, Tensor]] = {}
-        for key, tensor in _under("optimizer.", state).items():
-            index, name = key.split(".")
-            moments.setdefault(int(index), {})[name] = tensor
-        self.optimizer.load_state_dict({**optimizer, "state": moments})
+        restore_state(state, {"model": self.model, "averaged": self.averaged}, self.optimizer)
+        self.kept = under("best.", state)
         self.epoch, self.history = epoch, history
+
+    def result(self) -> tuple[CodecModel, dict[str, object]]:
+        """The best weights, and how they were found."""
+        self.averaged.load_state_dict(self.kept)
+        (group, group_epoch), (counts, counts_epoch) = self._best("group"), self._best("counts")
+        best = {"group": group, "counts": counts, "group_epoch": group_epoch, "counts_epoch": counts_epoch}
+        return self.averaged, {"best": best, "epochs_run": self.epoch}
+
+    def _best(self, part: str) -> tuple[float, int]:
+        """The lowest loss of a part so far, and the first epoch that had it."""
+        return min(((row[part], int(row["epoch"])) for row in self.history), default=(math.inf, 0))
+
+    def _keep(self) -> None:
+        better = {part: self._best(part)[1] == self.epoch for part in ("group", "counts")}
+        for name, tensor in self.averaged.state_dict().items():
+            if better["counts" if name.startswith("counts.") else "group"]:
+                self.kept[name] = tensor.detach().clone()
 
     def _step(self, batch: Batch, at_epoch: float) -> None:
         for group in self.optimizer.param_groups:
@@ -147,7 +169,3 @@ def _schedule(at_epoch: float, epochs: int) -> float:
     if at_epoch < 2:
         return (at_epoch + 0.05) / 2.05
     return 0.02 + 0.98 * 0.5 * (1 + math.cos(math.pi * (at_epoch - 2) / max(epochs - 2, 1)))
-
-
-def _under(prefix: str, state: dict[str, Tensor]) -> dict[str, Tensor]:
-    return {key.removeprefix(prefix): tensor for key, tensor in state.items() if key.startswith(prefix)}

@@ -15,6 +15,8 @@ from genc.errors import CheckpointError
 from genc.files import ensure_folder, write_text, written_beside
 from genc.model.codec import CodecConfig, CodecModel
 from genc.model.generator import CodecGenerator
+from genc.model.paper.generator import PaperGenerator
+from genc.model.paper.vgae import PaperConfig, PaperModel
 from genc.words.embed import TextEncoder, load_encoder
 from genc.words.vocabulary import vocabulary_hash
 
@@ -24,8 +26,12 @@ CONFIG = "config.json"
 SHIPPED = Path(__file__).parents[1] / "pretrained" / "codec"
 """The model that comes with the package."""
 
+Model = CodecModel | PaperModel
+Generator = CodecGenerator | PaperGenerator
+_SHAPES: dict[str, type[CodecConfig] | type[PaperConfig]] = {"codec": CodecConfig, "paper": PaperConfig}
 
-def save_checkpoint(folder: Path | str, model: CodecModel, encoder_id: str, trained_on: dict[str, Any]) -> None:
+
+def save_checkpoint(folder: Path | str, model: Model, encoder_id: str, trained_on: dict[str, Any]) -> None:
     """Writes a model; the config comes last, so a folder without one holds nothing usable.
 
     `trained_on` is kept as it is: whatever says where the weights come from.
@@ -39,7 +45,7 @@ def save_checkpoint(folder: Path | str, model: CodecModel, encoder_id: str, trai
     digest = hashlib.sha256((place / WEIGHTS).read_bytes()).hexdigest()
     config = {
         "schema": SCHEMA,
-        "generator": "codec",
+        "generator": next(name for name, shape in _SHAPES.items() if isinstance(model.config, shape)),
         "vocabulary_hash": vocabulary_hash(),
         "encoder": encoder_id,
         "weights_sha256": digest,
@@ -49,7 +55,7 @@ def save_checkpoint(folder: Path | str, model: CodecModel, encoder_id: str, trai
     write_text(place / CONFIG, json.dumps(config, indent=1, sort_keys=True) + "\n")
 
 
-def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = None) -> CodecGenerator:
+def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = None) -> Generator:
     """The generator in that folder, ready to sample.
 
     Args:
@@ -66,19 +72,23 @@ def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = N
             f"{place}: trained with the text encoder {config['encoder']}, which does not go with {encoder.id}"
         )
     weights, digest = _read_weights(place, str(config["weights_sha256"]))
-    shape = CodecConfig(**{f.name: config["model"][f.name] for f in fields(CodecConfig)})
+    kind = _SHAPES[config["generator"]]
+    shape = kind(**{f.name: config["model"][f.name] for f in fields(kind)})
     text = load_encoder(config["encoder"]) if encoder is None else encoder
     if text.dimension != shape.text_dim:
         raise CheckpointError(f"{place}: made for text vectors of {shape.text_dim}; {text.id} gives {text.dimension}")
     try:
-        model = CodecModel(shape)
+        model = CodecModel(shape) if isinstance(shape, CodecConfig) else PaperModel(shape)
         model.load_state_dict(weights)
     except (RuntimeError, TypeError, ValueError) as error:
         detail = " ".join(str(error).split())[:160]
         raise CheckpointError(
             f"{place}: the weights do not fit their own config ({detail}): fetch them anew"
         ) from error
-    return CodecGenerator(model.eval(), text, digest[:16])
+    model.eval()
+    if isinstance(model, CodecModel):
+        return CodecGenerator(model, text, digest[:16])
+    return PaperGenerator(model, text, digest[:16])
 
 
 def _read_config(place: Path) -> dict[str, Any]:
@@ -86,7 +96,9 @@ def _read_config(place: Path) -> dict[str, Any]:
     try:
         config = json.loads(path.read_text(encoding="utf-8"))
         found = {key: config[key] for key in ("schema", "generator", "vocabulary_hash", "encoder", "weights_sha256")}
-        missing = [f.name for f in fields(CodecConfig) if f.name not in config["model"]]
+        missing = [
+            f.name for f in fields(_SHAPES.get(config["generator"], CodecConfig)) if f.name not in config["model"]
+        ]
     except FileNotFoundError:
         raise CheckpointError(
             f"{place}: no model here (no {CONFIG}): name a folder that 'genc train' has made"
@@ -95,8 +107,9 @@ def _read_config(place: Path) -> dict[str, Any]:
         raise CheckpointError(f"{path}: not the config of a model ({error!r}): fetch or train it anew") from error
     if found["schema"] != SCHEMA:
         raise CheckpointError(f"{path}: schema {found['schema']}; this version of genc reads {SCHEMA}")
-    if found["generator"] != "codec":
-        raise CheckpointError(f"{path}: holds a {found['generator']!r} generator; this version of genc knows 'codec'")
+    if found["generator"] not in _SHAPES:
+        known = " and ".join(map(repr, _SHAPES))
+        raise CheckpointError(f"{path}: holds a {found['generator']!r} generator; this version of genc knows {known}")
     if found["vocabulary_hash"] != vocabulary_hash():
         raise CheckpointError(
             f"{path}: trained with another vocabulary ({found['vocabulary_hash']}, not {vocabulary_hash()}): train anew"

@@ -9,6 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from genc.words.brief import Brief
+from genc.words.embed import TextEncoder
 from genc.words.vocabulary import ACTIONS, MAX_AGENTS, MAX_EVENTS, MAX_NODES
 
 N_ACTIONS = len(ACTIONS)
@@ -31,10 +32,13 @@ class Conditions:
     frequencies: Tensor
 
     @staticmethod
-    def of(briefs: Sequence[Brief], text: Tensor) -> Conditions:
-        """The conditions of briefs whose texts have been embedded, `[B, text_dim]`."""
+    def of(briefs: Sequence[Brief], encoder: TextEncoder) -> Conditions:
+        """The conditions of at least one brief; each distinct text is embedded once."""
+        distinct = {text: i for i, text in enumerate(dict.fromkeys(b.text for b in briefs))}
+        vectors = torch.from_numpy(encoder.encode(list(distinct)))
         counts = [[b.n_agents or UNKNOWN, b.n_events or UNKNOWN, b.n_nodes or UNKNOWN] for b in briefs]
         frequencies = [b.action_frequencies or (0.0,) * N_ACTIONS for b in briefs]
+        text = vectors[[distinct[b.text] for b in briefs]]
         return Conditions(text, torch.tensor(counts), torch.tensor(frequencies))
 
     def __len__(self) -> int:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
-from torch import Tensor
 
 from genc.graph.crowd_graph import CrowdGraph
 from genc.model.codec import CodecModel
@@ -46,10 +45,5 @@ class CodecGenerator:
         return self.model.sample(given, Sampling(generator, self.temperature, self.top_p, self.guidance))
 
     def conditions(self, briefs: Sequence[Brief]) -> Conditions:
-        """The briefs as tensors; each distinct text is embedded once."""
-        return Conditions.of(briefs, self._embed([b.text for b in briefs]))
-
-    def _embed(self, texts: Sequence[str]) -> Tensor:
-        distinct = {text: i for i, text in enumerate(dict.fromkeys(texts))}
-        vectors = torch.from_numpy(self.encoder.encode(list(distinct)))
-        return vectors[[distinct[text] for text in texts]]
+        """The briefs as tensors."""
+        return Conditions.of(briefs, self.encoder)

@@ -1,0 +1,172 @@
+"""Training of the `paper` generator, by the schedule of the paper (Gen-C, Training Objective and Experiments)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from genc.errors import DatasetError
+from genc.graph.codec import decode
+from genc.graph.describe import action_frequencies
+from genc.learn.dataset import Dataset
+from genc.learn.state import named_state, restore_state
+from genc.model.condition import Conditions
+from genc.model.paper.graphs import Batch
+from genc.model.paper.vgae import Losses, PaperConfig, PaperModel
+
+
+@dataclass(frozen=True)
+class PaperTraining:
+    """The schedule.
+
+    The paper does not say: how beta climbs within a cycle (here linearly through its first half, then it stays: Fu et
+    al. 2019), whether sums over nodes and entries become means over graphs of a batch (here they do), which epoch's
+    weights are kept (here the last), and which beta a single VGAE has (here that of the features, at whose top the
+    objective is the ELBO).
+    Departs from the paper: a scenario has paraphrases besides its sentence; in each epoch one of its texts is drawn.
+
+    Attributes:
+        theme: only scenarios of this theme, None for all.
+        learning_rates: from the first epoch to the last, linearly.
+        cycle: epochs after which beta begins anew.
+        beta_structure, beta_features: its range in each cycle.
+        save_every: epochs between two savings of the run.
+    """
+
+    theme: str | None = None
+    epochs: int = 500
+    batch_size: int = 128
+    learning_rates: tuple[float, float] = (5e-4, 1.25e-4)
+    weight_decay: float = 3e-4
+    cycle: int = 100
+    beta_structure: tuple[float, float] = (0.001, 3.0)
+    beta_features: tuple[float, float] = (0.001, 1.0)
+    save_every: int = 10
+    seed: int = 0
+
+
+class PaperBatches:
+    """Groups of one part of the split in memory, with everything that is computed but once."""
+
+    def __init__(self, dataset: Dataset, split: str, training: PaperTraining, *, canonical: bool) -> None:
+        rows = dataset.rows(split, training.theme)
+        rng = np.random.default_rng([training.seed, len(rows)])
+        graphs = [decode(dataset.tokens[g]) for g in rows]
+        self.graphs = [Batch.of(g, np.arange(g.n_nodes) if canonical else rng.permutation(g.n_nodes)) for g in graphs]
+        self.counts = torch.from_numpy(dataset.counts[rows])
+        self.frequencies = torch.tensor([action_frequencies(g) for g in graphs])
+        self.texts = [dataset.stories[s].texts for s in dataset.story[rows]]
+        self.embeddings = torch.from_numpy(dataset.embeddings)
+
+    def __len__(self) -> int:
+        return len(self.graphs)
+
+    def epoch(self, size: int, rng: np.random.Generator) -> Iterator[tuple[Batch, Conditions]]:
+        """Every group once, shuffled, each asked for by one text of its scenario."""
+        order = rng.permutation(len(self))
+        for start in range(0, len(order), size):
+            rows = order[start : start + size]
+            yield self.batch(rows.tolist(), [int(rng.choice(self.texts[g])) for g in rows])
+
+    def fixed(self, size: int) -> Iterator[tuple[Batch, Conditions]]:
+        """Every group once, in order, asked for by its scenario's sentence."""
+        for start in range(0, len(self), size):
+            rows = list(range(len(self)))[start : start + size]
+            yield self.batch(rows, [self.texts[g][0] for g in rows])
+
+    def batch(self, rows: list[int], texts: list[int]) -> tuple[Batch, Conditions]:
+        """These groups, asked for by these texts."""
+        given = Conditions(self.embeddings[texts], self.counts[rows], self.frequencies[rows])
+        return Batch.packed([self.graphs[g] for g in rows]), given
+
+
+class PaperTrainer:
+    """A `Trainee`; what it keeps are the weights of the last epoch."""
+
+    def __init__(self, dataset: Dataset, model: PaperConfig, training: PaperTraining, device: torch.device) -> None:
+        self.training, self.device = training, device
+        torch.manual_seed(training.seed)
+        self.batches = PaperBatches(dataset, "train", training, canonical=model.canonical)
+        if not len(self.batches):
+            themes = ", ".join(dataset.manifest.themes)
+            raise DatasetError(f"no groups of theme {training.theme!r} to train on; the dataset has: {themes}")
+        self.held_out = PaperBatches(dataset, "validation", training, canonical=model.canonical)
+        self.model = PaperModel(model).to(device)
+        self.model.known_counts.copy_(self.batches.counts)
+        self.model.known_frequencies.copy_(self.batches.frequencies)
+        self.optimizer = torch.optim.Adam(
+            self.model.parameters(), lr=training.learning_rates[0], weight_decay=training.weight_decay
+        )
+        self.epoch = 0
+        self.history: list[dict[str, float]] = []
+
+    @property
+    def finished(self) -> bool:
+        """Whether the schedule has come to its end."""
+        return self.epoch >= self.training.epochs
+
+    def run_epoch(self) -> str:
+        """Trains for one epoch and says how it went."""
+        # all chance of an epoch follows from (seed, epoch): a resumed run needs no generator state
+        torch.manual_seed(self.training.seed * 100_003 + self.epoch)
+        rng = np.random.default_rng([self.training.seed, self.epoch])
+        for group in self.optimizer.param_groups:
+            group["lr"] = learning_rate(self.training, self.epoch)
+        self.model.train()
+        for batch, given in self.batches.epoch(self.training.batch_size, rng):
+            self.optimizer.zero_grad(set_to_none=True)
+            torch.autograd.backward(self._objective(self.model(batch.to(self.device), given.to(self.device))))
+            self.optimizer.step()
+        self.epoch += 1
+        losses = self.validate()
+        self.history.append({"epoch": self.epoch, **losses})
+        return ", ".join(f"{name} {value:.2f}" for name, value in losses.items())
+
+    @torch.inference_mode()
+    def validate(self) -> dict[str, float]:
+        """The mean loss terms of held-out groups."""
+        self.model.eval()
+        torch.manual_seed(0)
+        totals = torch.zeros(4)
+        for batch, given in self.held_out.fixed(512):
+            terms = self.model(batch.to(self.device), given.to(self.device))
+            totals += torch.stack([t.sum().cpu() for t in vars(terms).values()])
+        return dict(zip(Losses.__dataclass_fields__, (totals / max(len(self.held_out), 1)).tolist(), strict=True))
+
+    def state(self) -> dict[str, Tensor]:
+        """Everything but `epoch` and `history` that a later run needs, as named tensors."""
+        return named_state({"model": self.model}, self.optimizer)
+
+    def restore(self, state: dict[str, Tensor], epoch: int, history: list[dict[str, float]]) -> None:
+        """Goes back to what `state` gave after that epoch."""
+        restore_state(state, {"model": self.model}, self.optimizer)
+        self.epoch, self.history = epoch, history
+
+    def result(self) -> tuple[PaperModel, dict[str, object]]:
+        """The weights of the last epoch, and its held-out losses."""
+        return self.model.cpu(), {"held_out": self.history[-1], "epochs_run": self.epoch}
+
+    def _objective(self, terms: Losses) -> Tensor:
+        """L_VGAE-S + L_VGAE-F (Gen-C, Training Objective); they share the condition network alone."""
+        t = self.training
+        beta_features = annealed(t.beta_features, self.epoch, t.cycle)
+        objective = terms.structure + terms.features + beta_features * terms.kl_features
+        if not self.model.config.single:
+            objective = objective + annealed(t.beta_structure, self.epoch, t.cycle) * terms.kl_structure
+        return objective.mean()
+
+
+def annealed(bounds: tuple[float, float], epoch: int, cycle: int) -> float:
+    """Beta in that epoch: from the lower bound to the upper through the first half of each cycle."""
+    low, high = bounds
+    return low + (high - low) * min(2 * (epoch % cycle) / cycle, 1.0)
+
+
+def learning_rate(training: PaperTraining, epoch: int) -> float:
+    """The learning rate in that epoch."""
+    first, last = training.learning_rates
+    return first + (last - first) * epoch / max(training.epochs - 1, 1)
