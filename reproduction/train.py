@@ -1,44 +1,69 @@
 """Trains the models of the tables: `paper` for each theme by the full schedule, and its two ablations.
 
-    python reproduction/train.py --dataset out/dataset --out out/models
+    python -m reproduction.train --dataset out/dataset --out out/models            # hours; killed, it goes on
+    python -m reproduction.train --dataset out/dataset --out out/models --ship     # puts them where the tables look
 
-Killed, the same command goes on where it was. `--only university_campus-paper` trains one of them.
+`--only university-campus-full` trains one of them. What is shipped has 16-bit weights.
 """
 
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+import json
 from pathlib import Path
 
-from genc.learn.dataset import Dataset, load_dataset
-from genc.learn.paper import PaperTraining
+from safetensors.torch import load_file
+
+from genc.learn.dataset import load_dataset
+from genc.learn.paper import VARIANTS, PaperTraining, paper_shape
 from genc.learn.run import train
-from genc.model.paper.vgae import PaperConfig
+from genc.learn.state import under
+from genc.model.checkpoint import CONFIG, PRETRAINED, load_generator, save_checkpoint
+from genc.model.paper.vgae import PaperModel
+from reproduction.study import HERE, THEMES, folder_of
 
-THEMES = ("university campus", "train station")
-VARIANTS = {"paper": {}, "unordered": {"canonical": False}, "single": {"single": True}}
+
+def ship(run: Path, variant: str, theme: str) -> None:
+    """The best weights of a run, and of the full model those of the last epoch too."""
+    generator = load_generator(run)
+    assert isinstance(generator.model, PaperModel)
+    card = json.loads((run / CONFIG).read_text(encoding="utf-8"))["trained_on"]
+    name = folder_of(theme)
+    _save(
+        HERE / "models" / f"{name}-{variant}" if variant != "full" else PRETRAINED / f"paper-{name}",
+        generator.model,
+        card,
+    )
+    if variant == "full":
+        (last,) = run.glob("state-*.safetensors")
+        generator.model.float().load_state_dict(under("model.", load_file(last)))
+        _save(HERE / "models" / f"{name}-last", generator.model, card)
 
 
-def train_model(dataset: Dataset, theme: str, variant: str, folder: Path, epochs: int) -> None:
-    n_known = len(dataset.rows("train", theme))
-    shape = replace(PaperConfig(dataset.manifest.dimension, n_known), **VARIANTS[variant])
-    train(dataset, folder, PaperTraining(theme=theme, epochs=epochs), shape)
+def _save(folder: Path, model: PaperModel, card: dict[str, object]) -> None:
+    frequencies = model.known_frequencies
+    model.half().known_frequencies = frequencies
+    save_checkpoint(folder, model, "all-MiniLM-L6-v2", card)
+    print(folder)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--dataset", type=Path, required=True, help="a folder made by 'genc dataset build'")
     parser.add_argument("--out", type=Path, required=True, help="each model gets a folder in it")
-    parser.add_argument("--only", help="one model, such as university_campus-paper")
+    parser.add_argument("--only", help="one model, such as university-campus-full")
     parser.add_argument("--epochs", type=int, default=PaperTraining.epochs)
+    parser.add_argument("--ship", action="store_true", help="copy what is trained to where the tables look")
     args = parser.parse_args()
     dataset = load_dataset(args.dataset)
     for theme in THEMES:
         for variant in VARIANTS:
-            name = f"{theme.replace(' ', '_')}-{variant}"
+            name = f"{folder_of(theme)}-{variant}"
             if args.only in (None, name):
-                train_model(dataset, theme, variant, args.out / name, args.epochs)
+                training = PaperTraining(theme=theme, epochs=args.epochs)
+                run = train(dataset, args.out / name, training, paper_shape(dataset, theme, variant))
+                if args.ship:
+                    ship(run, variant, theme)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 from genc.errors import BriefError, LayoutError
 from genc.graph.crowd_graph import CrowdGraph
 from genc.graph.weave import unfold
-from genc.model.checkpoint import load_generator
+from genc.model.checkpoint import Generator, load_generator
 from genc.model.generator import CodecGenerator
 from genc.motion.executor import Options, simulate
 from genc.motion.jupedsim_steering import JuPedSim, library
@@ -53,7 +53,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     minutes: float = 10.0,
     seed: int = 0,
     environment: Environment | None = None,
-    generator: CodecGenerator | None = None,
+    generator: Generator | None = None,
     steering: str = "kinematic",
 ) -> World:
     """A world with exactly `n_agents` people who live out the sentence; the same arguments give the same world.
@@ -63,7 +63,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
         theme: a theme of the shipped corpus; narrows the choice of a layout and colours the sentence.
         minutes: length of the world.
         environment: the layout; by default that of the authored scenario nearest in meaning.
-        generator: a trained generator; by default the one that comes with the package, with `GUIDANCE`.
+        generator: a trained generator; by default the one that comes with the package, `steered`.
         steering: what moves the people, one of `STEERINGS`.
 
     Raises:
@@ -75,7 +75,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
     check_request(text, n_agents, minutes)
     check_steering(steering)
     authored = load_corpus(None if theme is None else [theme])
-    generator = replace(load_generator(), guidance=GUIDANCE) if generator is None else generator
+    generator = steered(load_generator()) if generator is None else generator
     for_groups, for_plan, for_motion = np.random.default_rng(seed).spawn(3)
 
     asked = text if theme is None else f"{theme}: {text}"
@@ -89,7 +89,7 @@ def populate(  # noqa: PLR0913 - the product's own door: every wish has a name a
         notes=() if layout.nearness >= FAMILIAR else (f"{UNFAMILIAR} ({layout.nearness:.2f})",),
     )
     plan = plan_crowd([unfold(group) for group in groups], layout.environment, request, for_plan)
-    made_with = {"theme": theme, "seed": seed, "model": generator.hash, "guidance": generator.guidance}
+    made_with = {"theme": theme, "seed": seed, "model": generator.hash, **generator.settings}
     return play(plan, for_motion, {"text": text, **made_with}, steering)
 
 
@@ -125,7 +125,7 @@ def play(plan: CrowdPlan, rng: np.random.Generator, provenance: Provenance, stee
 
 
 def sample_groups(
-    generator: CodecGenerator, text: str, rng: np.random.Generator, n_groups: int, n_agents: int | None
+    generator: Generator, text: str, rng: np.random.Generator, n_groups: int, n_agents: int | None
 ) -> list[CrowdGraph]:
     """That many groups for one sentence, of `n_agents` people each if a number is given."""
     return generator.sample([Brief(text, n_agents)] * n_groups, rng)
@@ -160,8 +160,17 @@ def check_extent(environment: Environment) -> None:
             )
 
 
-def check_guidance(guidance: float) -> float:
-    """The guidance itself; raises `BriefError` if no generator can be steered so."""
+def steered(generator: Generator, guidance: float | None = None) -> Generator:
+    """The generator as a crowd needs it: the text steers with `guidance`; labels are drawn where there is none.
+
+    Raises:
+        BriefError: for a guidance out of range, or one for a generator that has none.
+    """
+    if not isinstance(generator, CodecGenerator):
+        if guidance is not None:
+            raise BriefError(f"a guidance of {guidance:g} is nothing that a 'paper' model has: leave it out")
+        return replace(generator, drawn=True)
+    guidance = GUIDANCE if guidance is None else guidance
     if not 0 <= guidance <= 10:
         raise BriefError(f"a guidance of {guidance:g} cannot be followed: ask for 0 to 10")
-    return guidance
+    return replace(generator, guidance=guidance)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -38,28 +38,48 @@ def build(scripts: tuple[Path, ...], out: Path, encoder: str, seed: int) -> None
 @click.command()
 @click.argument("dataset_folder", metavar="DATASET", type=click.Path(path_type=Path))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Folder of the run and of the model.")
+@click.option(
+    "--generator", default="codec", show_default=True, type=click.Choice(["codec", "paper"]), help="What to train."
+)
+@click.option("--variant", default="full", show_default=True, help="Of the paper's model: full, unordered or single.")
+@click.option("--theme", default=None, help="Only scenarios of this theme.")
 @click.option("--epochs", default=None, type=int, help="Length of the schedule.")
 @click.option("--batch-size", default=None, type=int, help="Groups in a batch.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0, 2**32 - 1))
 @click.option("--device", default="cpu", show_default=True, help="cpu or cuda.")
-def train(dataset_folder: Path, out: Path, epochs: int | None, batch_size: int | None, seed: int, device: str) -> None:
-    """Trains the codec generator on DATASET, and leaves the best weights in the folder.
+def train(  # noqa: PLR0913 - one parameter for each option
+    dataset_folder: Path,
+    out: Path,
+    generator: str,
+    variant: str,
+    theme: str | None,
+    epochs: int | None,
+    batch_size: int | None,
+    seed: int,
+    device: str,
+) -> None:
+    """Trains a generator on DATASET, and leaves its weights in the folder.
 
-    Killed at any moment, the same command goes on after the last whole epoch to the same weights.
+    `codec`, the default, keeps the weights that do best on held-out scenarios; `paper`, the model of Gen-C, those of
+    the last epoch. Killed at any moment, the same command goes on after the last epoch saved to the same weights.
     """
     from genc.errors import BriefError
     from genc.learn.dataset import load_dataset
+    from genc.learn.paper import PaperTraining, paper_shape
     from genc.learn.run import train as run
     from genc.learn.train import TrainConfig
     from genc.model.codec import CodecConfig
 
-    standard = TrainConfig()
-    n_epochs = standard.epochs if epochs is None else epochs
-    size = standard.batch_size if batch_size is None else batch_size
-    for name, value in (("--epochs", n_epochs), ("--batch-size", size)):
-        if value < 1:
+    for name, value in (("--epochs", epochs), ("--batch-size", batch_size)):
+        if value is not None and value < 1:
             raise BriefError(f"{name} {value}: must be at least 1")
+    if generator == "codec" and variant != "full":
+        raise BriefError(f"--variant {variant}: only the paper's model has variants: add --generator paper")
     data = load_dataset(dataset_folder)
-    config = replace(standard, epochs=n_epochs, batch_size=size, seed=seed)
-    run(data, out, config, CodecConfig(data.manifest.dimension), device)
+    asked = {"theme": theme, "epochs": epochs, "batch_size": batch_size, "seed": seed}
+    wishes: dict[str, Any] = {name: value for name, value in asked.items() if value is not None}
+    if generator == "paper":
+        run(data, out, PaperTraining(**wishes), paper_shape(data, theme, variant), device)
+    else:
+        run(data, out, TrainConfig(**wishes), CodecConfig(data.manifest.dimension), device)
     click.echo(f"{out}: trained; use it with 'genc populate --model {out}'")

@@ -49,7 +49,7 @@ def world_file(world: Path) -> Path:
     "--environment", default=None, type=click.Path(path_type=Path), help="A layout: script or JSON; else the nearest."
 )
 @click.option("--model", default=None, type=click.Path(path_type=Path), help="A trained model; else the shipped one.")
-@click.option("--guidance", default=2.0, show_default=True, help="How far the sentence steers; 1: as learned.")
+@click.option("--guidance", default=None, type=float, help="How far the sentence steers; 1: as learned.  [default: 2]")
 @steering_option
 @out_option
 @page_option
@@ -62,18 +62,16 @@ def populate(  # noqa: PLR0913 - one parameter for each option
     seed: int,
     environment: Path | None,
     model: Path | None,
-    guidance: float,
+    guidance: float | None,
     steering: str,
     out: Path,
     page: bool,
     as_json: bool,
 ) -> None:
     """Makes a world of TEXT: one sentence that says where it is, who is there and what they do."""
-    from dataclasses import replace
-
     from genc.files import ensure_folder
     from genc.model.checkpoint import SHIPPED, load_generator
-    from genc.pipeline import check_guidance, check_request, check_steering
+    from genc.pipeline import check_request, check_steering, steered
     from genc.pipeline import populate as make
     from genc.scenario.corpus import load_theme
     from genc.scenario.exchange import read_environment
@@ -83,7 +81,7 @@ def populate(  # noqa: PLR0913 - one parameter for each option
     if theme is not None:
         load_theme(theme)
     layout = None if environment is None else read_environment(environment)
-    generator = replace(load_generator(SHIPPED if model is None else model), guidance=check_guidance(guidance))
+    generator = steered(load_generator(SHIPPED if model is None else model), guidance)
     ensure_folder(out)
     world = make(
         text,

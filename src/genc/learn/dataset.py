@@ -122,6 +122,19 @@ class Dataset:
         return Sample(graph, story.theme, story.slug, sentence, tuple(paraphrases), caption)
 
 
+def training_rows(dataset: Dataset, theme: str | None) -> NDArray[np.int64]:
+    """The groups to train on.
+
+    Raises:
+        DatasetError: if there is none of that theme.
+    """
+    rows = dataset.rows("train", theme)
+    if not len(rows):
+        themes = ", ".join(dataset.manifest.themes)
+        raise DatasetError(f"no groups of theme {theme!r} to train on; the dataset has: {themes}")
+    return rows
+
+
 def split_by_scenario(themes: Sequence[str], seed: int) -> list[str]:
     """The part of the split for each scenario, given each one's theme: 80/15/5 within every theme, at least one each
     where a theme has three or more."""

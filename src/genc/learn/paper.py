@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from genc.errors import DatasetError
+from genc.errors import BriefError
 from genc.graph.codec import decode
 from genc.graph.describe import action_frequencies
-from genc.learn.dataset import Dataset
-from genc.learn.state import named_state, restore_state
+from genc.learn.dataset import Dataset, training_rows
+from genc.learn.state import named_state, restore_state, under
 from genc.model.condition import Conditions
 from genc.model.paper.graphs import Batch
 from genc.model.paper.vgae import Losses, PaperConfig, PaperModel
@@ -25,8 +25,8 @@ class PaperTraining:
 
     The paper does not say: how beta climbs within a cycle (here linearly through its first half, then it stays: Fu et
     al. 2019), whether sums over nodes and entries become means over graphs of a batch (here they do), which epoch's
-    weights are kept (here the last), and which beta a single VGAE has (here that of the features, at whose top the
-    objective is the ELBO).
+    weights are kept (here those with the lowest objective at beta = 1 on validation groups), and which beta a single
+    VGAE has (here that of the features, at whose top the objective is the ELBO).
     Departs from the paper: a scenario has paraphrases besides its sentence; in each epoch one of its texts is drawn.
 
     Attributes:
@@ -47,6 +47,23 @@ class PaperTraining:
     beta_features: tuple[float, float] = (0.001, 1.0)
     save_every: int = 10
     seed: int = 0
+
+
+VARIANTS: dict[str, dict[str, bool]] = {"full": {}, "unordered": {"canonical": False}, "single": {"single": True}}
+"""The paper's model, and its two ablations (Gen-C, Ablation Study)."""
+
+
+def paper_shape(dataset: Dataset, theme: str | None, variant: str = "full") -> PaperConfig:
+    """The network for training on this dataset, or on one theme of it.
+
+    Raises:
+        BriefError: if there is no such variant.
+        DatasetError: if there is nothing of that theme to train on.
+    """
+    if variant not in VARIANTS:
+        raise BriefError(f"the paper's model has no variant {variant!r}: choose one of {', '.join(VARIANTS)}")
+    n_known = len(training_rows(dataset, theme))
+    return replace(PaperConfig(dataset.manifest.dimension, n_known), **VARIANTS[variant])
 
 
 class PaperBatches:
@@ -85,15 +102,12 @@ class PaperBatches:
 
 
 class PaperTrainer:
-    """A `Trainee`; what it keeps are the weights of the last epoch."""
+    """A `Trainee`; what it keeps are the weights that did best on held-out groups."""
 
     def __init__(self, dataset: Dataset, model: PaperConfig, training: PaperTraining, device: torch.device) -> None:
         self.training, self.device = training, device
         torch.manual_seed(training.seed)
         self.batches = PaperBatches(dataset, "train", training, canonical=model.canonical)
-        if not len(self.batches):
-            themes = ", ".join(dataset.manifest.themes)
-            raise DatasetError(f"no groups of theme {training.theme!r} to train on; the dataset has: {themes}")
         self.held_out = PaperBatches(dataset, "validation", training, canonical=model.canonical)
         self.model = PaperModel(model).to(device)
         self.model.known_counts.copy_(self.batches.counts)
@@ -103,6 +117,7 @@ class PaperTrainer:
         )
         self.epoch = 0
         self.history: list[dict[str, float]] = []
+        self.kept: dict[str, Tensor] = {}
 
     @property
     def finished(self) -> bool:
@@ -123,7 +138,9 @@ class PaperTrainer:
             self.optimizer.step()
         self.epoch += 1
         losses = self.validate()
-        self.history.append({"epoch": self.epoch, **losses})
+        self.history.append({"epoch": self.epoch, **losses, "total": self._total(losses)})
+        if self._best()["epoch"] == self.epoch:
+            self.kept = {name: tensor.detach().clone() for name, tensor in self.model.state_dict().items()}
         return ", ".join(f"{name} {value:.2f}" for name, value in losses.items())
 
     @torch.inference_mode()
@@ -139,16 +156,26 @@ class PaperTrainer:
 
     def state(self) -> dict[str, Tensor]:
         """Everything but `epoch` and `history` that a later run needs, as named tensors."""
-        return named_state({"model": self.model}, self.optimizer)
+        kept = {f"best.{name}": tensor for name, tensor in self.kept.items()}
+        return named_state({"model": self.model}, self.optimizer) | kept
 
     def restore(self, state: dict[str, Tensor], epoch: int, history: list[dict[str, float]]) -> None:
         """Goes back to what `state` gave after that epoch."""
         restore_state(state, {"model": self.model}, self.optimizer)
+        self.kept = under("best.", state)
         self.epoch, self.history = epoch, history
 
     def result(self) -> tuple[PaperModel, dict[str, object]]:
-        """The weights of the last epoch, and its held-out losses."""
-        return self.model.cpu(), {"held_out": self.history[-1], "epochs_run": self.epoch}
+        """The best weights, and the held-out losses of their epoch and of the last."""
+        self.model.load_state_dict(self.kept)
+        return self.model.cpu(), {"best": self._best(), "last": self.history[-1]}
+
+    def _best(self) -> dict[str, float]:
+        return min(self.history, key=lambda row: row["total"])
+
+    def _total(self, losses: dict[str, float]) -> float:
+        """The objective at beta = 1, whatever beta is in that epoch."""
+        return sum(losses.values()) - self.model.config.single * losses["kl_features"]
 
     def _objective(self, terms: Losses) -> Tensor:
         """L_VGAE-S + L_VGAE-F (Gen-C, Training Objective); they share the condition network alone."""

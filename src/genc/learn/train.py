@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from genc.learn.batches import Asking, Batch, Batches
-from genc.learn.dataset import Dataset
+from genc.learn.dataset import Dataset, training_rows
 from genc.learn.state import named_state, restore_state, under
 from genc.model.codec import CodecConfig, CodecModel, Terms
 
@@ -19,6 +19,7 @@ class TrainConfig:
     """How to train.
 
     Attributes:
+        theme: only scenarios of this theme, None for all.
         epochs: length of the schedule.
         free_nats: the KL term (per group, both latents) is not pressed below this.
         average: decay of the running average of the weights that is validated and kept.
@@ -27,6 +28,7 @@ class TrainConfig:
         asking: how groups are asked for, and what is left out of the asking how often.
     """
 
+    theme: str | None = None
     epochs: int = 32
     batch_size: int = 96
     learning_rate: float = 2e-3
@@ -73,8 +75,8 @@ class Trainer:
             lr=config.learning_rate,
             betas=(0.9, 0.98),
         )
-        self.train_batches = Batches(dataset, dataset.rows("train"), device)
-        self.held_out = Batches(dataset, dataset.rows("validation"), device)
+        self.train_batches = Batches(dataset, training_rows(dataset, config.theme), device)
+        self.held_out = Batches(dataset, dataset.rows("validation", config.theme), device)
         self.epoch = 0
         self.history: list[dict[str, float]] = []
         self.kept: dict[str, Tensor] = {}

@@ -23,8 +23,10 @@ from genc.words.vocabulary import vocabulary_hash
 SCHEMA = 1
 WEIGHTS = "model.safetensors"
 CONFIG = "config.json"
-SHIPPED = Path(__file__).parents[1] / "pretrained" / "codec"
-"""The model that comes with the package."""
+PRETRAINED = Path(__file__).parents[1] / "pretrained"
+"""The models that come with the package, each a folder."""
+SHIPPED = PRETRAINED / "codec"
+"""The one that is used unless another is named."""
 
 Model = CodecModel | PaperModel
 Generator = CodecGenerator | PaperGenerator
@@ -56,7 +58,7 @@ def save_checkpoint(folder: Path | str, model: Model, encoder_id: str, trained_o
 
 
 def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = None) -> Generator:
-    """The generator in that folder, ready to sample.
+    """The generator in that folder, or the shipped one of that name (`shipped_models`), ready to sample.
 
     Args:
         encoder: a text encoder that is loaded already; by default the one that the weights were trained with.
@@ -65,7 +67,7 @@ def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = N
         CheckpointError: naming what is missing, damaged, or does not match.
         EncoderError: if its text encoder cannot be loaded.
     """
-    place = Path(folder)
+    place = PRETRAINED / folder if str(folder) in shipped_models() and not Path(folder).exists() else Path(folder)
     config = _read_config(place)
     if encoder is not None and encoder.id != config["encoder"]:
         raise CheckpointError(
@@ -91,6 +93,11 @@ def load_generator(folder: Path | str = SHIPPED, encoder: TextEncoder | None = N
     return PaperGenerator(model, text, digest[:16])
 
 
+def shipped_models() -> list[str]:
+    """The names of the models that come with the package."""
+    return sorted(place.parent.name for place in PRETRAINED.glob(f"*/{CONFIG}"))
+
+
 def _read_config(place: Path) -> dict[str, Any]:
     path = place / CONFIG
     try:
@@ -101,7 +108,8 @@ def _read_config(place: Path) -> dict[str, Any]:
         ]
     except FileNotFoundError:
         raise CheckpointError(
-            f"{place}: no model here (no {CONFIG}): name a folder that 'genc train' has made"
+            f"{place}: no model here (no {CONFIG}): name a folder that 'genc train' has made, or one of "
+            f"{', '.join(shipped_models())}"
         ) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise CheckpointError(f"{path}: not the config of a model ({error!r}): fetch or train it anew") from error

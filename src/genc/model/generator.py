@@ -35,6 +35,11 @@ class CodecGenerator:
     top_p: float = 1.0
     guidance: float = 1.0
 
+    @property
+    def settings(self) -> dict[str, float]:
+        """What else its groups depend on, for the record."""
+        return {"guidance": self.guidance}
+
     def sample(self, briefs: Sequence[Brief], rng: np.random.Generator) -> list[CrowdGraph]:
         """One group for each brief, in order; requested counts are met exactly, frequencies nearly."""
         return self.sample_batch(self.conditions(briefs), rng).graphs() if briefs else []

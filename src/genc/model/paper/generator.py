@@ -47,6 +47,11 @@ class PaperGenerator:
     hash: str
     drawn: bool = False
 
+    @property
+    def settings(self) -> dict[str, bool]:
+        """What else its groups depend on, for the record."""
+        return {"drawn": self.drawn}
+
     def sample(self, briefs: Sequence[Brief], rng: np.random.Generator) -> list[CrowdGraph]:
         """One group for each brief, in order; requested counts are met exactly."""
         return [answer.group for answer in self.decode(briefs, rng)]
@@ -61,7 +66,9 @@ class PaperGenerator:
         return answers
 
     def _decode(self, told: Sequence[Brief], rng: np.random.Generator) -> list[Decoded]:
+
         from genc.graph.repair import repair, threshold  # TODO top
+
         generator = torch.Generator().manual_seed(int(rng.integers(2**62)))
         z_structure, z_features, condition = self.model.draw_latents(Conditions.of(told, self.encoder), generator)
         matrices = self.model.structure(z_structure, condition).numpy()
