@@ -81,7 +81,7 @@ class Study:
         return generator
 
     def source(self, theme: str, name: str) -> GraphSource:
-        """A baseline, `codec`, or the paper's model: `full`, labels `drawn`, `last` epoch, `unordered`, `single`."""
+        """A baseline, `codec`, or the paper's model: `full`, labels `drawn`, `best` epoch, `unordered`, `single`."""
         if name in BASELINES:
             return BASELINES[name](self.material(theme))
         if name == "codec":

@@ -24,20 +24,18 @@ from reproduction.study import HERE, THEMES, folder_of
 
 
 def ship(run: Path, variant: str, theme: str) -> None:
-    """The best weights of a run, and of the full model those of the last epoch too."""
+    """The weights of the last epoch; of the full model also those that did best on held-out groups."""
     generator = load_generator(run)
     assert isinstance(generator.model, PaperModel)
     card = json.loads((run / CONFIG).read_text(encoding="utf-8"))["trained_on"]
     name = folder_of(theme)
-    _save(
-        HERE / "models" / f"{name}-{variant}" if variant != "full" else PRETRAINED / f"paper-{name}",
-        generator.model,
-        card,
-    )
+    (state,) = map(load_file, run.glob("state-*.safetensors"))
+    generator.model.load_state_dict(under("model.", state))
+    place = PRETRAINED / f"paper-{name}" if variant == "full" else HERE / "models" / f"{name}-{variant}"
+    _save(place, generator.model, card)
     if variant == "full":
-        (last,) = run.glob("state-*.safetensors")
-        generator.model.float().load_state_dict(under("model.", load_file(last)))
-        _save(HERE / "models" / f"{name}-last", generator.model, card)
+        generator.model.float().load_state_dict(under("best.", state))
+        _save(HERE / "models" / f"{name}-best", generator.model, card)
 
 
 def _save(folder: Path, model: PaperModel, card: dict[str, object]) -> None:

@@ -7,6 +7,7 @@ NAMES = [
     *("load_corpus", "load_scripts", "read_environment", "rehearse", "write_script"),
     *("unfold", "weave", "build_dataset", "load_dataset", "train", "load_generator"),
     *("plan_crowd", "populate", "stage", "read_world", "write_world", "export_world", "tell_agent", "tell_group"),
+    *("Trial", "examine", "load_source", "read_material", "write_report"),
 ]
 
 

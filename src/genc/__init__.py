@@ -16,6 +16,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from genc.errors import GencError as GencError
+    from genc.evaluate.evaluation import Trial as Trial
+    from genc.evaluate.examine import examine as examine
+    from genc.evaluate.material import read_material as read_material
+    from genc.evaluate.report import write_report as write_report
+    from genc.evaluate.sources import load_source as load_source
     from genc.graph.crowd_graph import CrowdGraph as CrowdGraph
     from genc.graph.weave import unfold as unfold
     from genc.graph.weave import weave as weave
@@ -45,16 +50,20 @@ _HOME = {
     "CrowdGraph": "graph.crowd_graph",
     "GencError": "errors",
     "GraphSource": "model.source",
+    "Trial": "evaluate.evaluation",
     "World": "world.world",
     "build_dataset": "learn.build",
+    "examine": "evaluate.examine",
     "export_world": "world.export",
     "load_corpus": "scenario.corpus",
     "load_dataset": "learn.dataset",
     "load_generator": "model.checkpoint",
     "load_scripts": "scenario.corpus",
+    "load_source": "evaluate.sources",
     "plan_crowd": "plan.crowd",
     "populate": "pipeline",
     "read_environment": "scenario.exchange",
+    "read_material": "evaluate.material",
     "read_world": "world.world_file",
     "rehearse": "scenario.rehearse",
     "stage": "pipeline",
@@ -63,6 +72,7 @@ _HOME = {
     "train": "learn.run",
     "unfold": "graph.weave",
     "weave": "graph.weave",
+    "write_report": "evaluate.report",
     "write_script": "scenario.script",
     "write_world": "world.world_file",
 }

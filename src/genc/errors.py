@@ -4,8 +4,12 @@ Room: errors. In: nothing. Out: exceptions. May import: nothing.
 
     GencError                 something genc says in one line; the command line exits with 2
     +-- BriefError            the request cannot be met: empty sentence, a count out of range
-    +-- ScriptError           a scenario script or its JSON is wrong; carries every problem found
+    +-- ScriptError           a scenario script, its JSON or a list of seeds is wrong; carries every problem found
+    +-- StudyError            prompts or answers of a user study are wrong; carries every problem found
     +-- LayoutError           an environment cannot be used
+    +-- ProviderError         a language model cannot be reached, refuses, or gives nothing that can be used
+    +-- JournalError          a journal of paid replies is damaged, in use, or of another version
+    +-- BudgetError           a run stopped because its tokens were used up
     +-- EncoderError          a text encoder is missing, altered, or the wrong one
     +-- DatasetError          a dataset folder is missing, incomplete or of another version
     +-- CheckpointError       model weights are missing, damaged, or do not fit this version
@@ -37,8 +41,28 @@ class ScriptError(GencError):
         super().__init__("\n".join(self.problems))
 
 
+class StudyError(GencError):
+    """Prompts or answers of a user study that cannot be used; `problems` holds one line for each fault."""
+
+    def __init__(self, problems: Sequence[str]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(self.problems))
+
+
 class LayoutError(GencError):
     """An environment in which no crowd can be placed."""
+
+
+class ProviderError(GencError):
+    """A language model that does not answer, or not usably."""
+
+
+class JournalError(GencError):
+    """A journal of paid replies that cannot be used."""
+
+
+class BudgetError(GencError):
+    """A run that has used up its tokens; what it has is kept."""
 
 
 class EncoderError(GencError):

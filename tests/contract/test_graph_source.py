@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 import torch
 
-from genc.evaluate.baselines import Retrieval, Shuffle
+from genc.evaluate.baselines import Perturb, Random, Retrieval, Shuffle
 from genc.graph.codec import canonical, group_fault
 from genc.graph.crowd_graph import CrowdGraph
+from genc.graph.describe import action_frequencies
 from genc.graph.weave import weave
 from genc.model.codec import CodecConfig, CodecModel
 from genc.model.generator import CodecGenerator
-from genc.model.source import GraphSource
+from genc.model.paper.generator import PaperGenerator
+from genc.model.paper.vgae import PaperConfig, PaperModel
+from genc.model.source import GraphSource, MatrixSource
 from genc.scenario.corpus import load_theme
 from genc.scenario.rehearse import rehearse
 from genc.words.brief import Brief
@@ -39,19 +42,38 @@ def codec(guidance: float = 1.0) -> CodecGenerator:
     return CodecGenerator(CodecModel(shape).eval(), Hashing(), "0" * 16, guidance=guidance)
 
 
+def paper(*, drawn: bool = False) -> PaperGenerator:
+    torch.manual_seed(0)
+    groups = authored()
+    model = PaperModel(PaperConfig(Hashing.dimension, len(groups), width=16, latent=4, condition=8)).eval()
+    model.known_counts.copy_(torch.tensor([[g.n_agents, g.n_events, g.n_nodes] for g in groups]))
+    model.known_frequencies.copy_(torch.tensor([action_frequencies(g) for g in groups]))
+    return PaperGenerator(model, Hashing(), "0" * 16, drawn)
+
+
 def authored() -> list[CrowdGraph]:
     rng = np.random.default_rng(0)
     return [g for s in load_theme("museum")[:4] for g in weave(rehearse(s, rng).records).groups()]
 
 
+def told() -> list[list[str]]:
+    return [[f"group {i}", "bones"] for i in range(len(authored()))]
+
+
 SOURCES: dict[str, Callable[[], GraphSource]] = {
     "codec": codec,
     "codec, guided": lambda: codec(guidance=2.5),
+    "paper": paper,
+    "paper, drawn": lambda: paper(drawn=True),
     "shuffle": lambda: Shuffle(authored()),
-    "retrieval": lambda: Retrieval(authored(), [[f"group {i}", "bones"] for i in range(len(authored()))], Hashing()),
+    "random": lambda: Random(authored()),
+    "perturb": lambda: Perturb(authored()),
+    "retrieval": lambda: Retrieval(authored(), told(), Hashing()),
+    "retrieval, whole condition": lambda: Retrieval(authored(), told(), Hashing(), whole_condition=True),
 }
-EXACT = ("codec", "codec, guided")
-"""The baselines give counts only as well as an authored group happens to have them."""
+EXACT = ("codec", "codec, guided", "paper", "paper, drawn", "random")
+"""The other baselines give counts only as well as an authored group happens to have them."""
+MATRICES = ("paper", "paper, drawn", "perturb")
 
 
 @pytest.fixture(params=sorted(SOURCES))
@@ -95,3 +117,23 @@ def test_one_rng_gives_other_groups_the_second_time(make):
 
 def test_nobody_asking_is_no_fault(make):
     assert make().sample([], np.random.default_rng(0)) == []
+
+
+@pytest.mark.parametrize("name", MATRICES)
+def test_what_is_decoded_is_what_is_sampled_before_its_repair(name):
+    source = SOURCES[name]()
+    assert isinstance(source, MatrixSource)
+    decoded = source.decode(BRIEFS * 3, np.random.default_rng(7))
+    assert [answer.group for answer in decoded] == source.sample(BRIEFS * 3, np.random.default_rng(7))
+    for answer in decoded:
+        adjacency = answer.graph.adjacency
+        assert adjacency.dtype == np.int8
+        assert np.array_equal(adjacency, adjacency.T)
+        assert not np.diagonal(adjacency).any()
+        assert set(np.unique(adjacency).tolist()) <= {-1, 0, 1}
+        assert len(answer.graph.action) == len(answer.graph.category) == len(adjacency)
+        assert answer.change_rate >= 0
+
+
+def test_only_sources_of_matrices_are_taken_for_such():
+    assert {name for name, make in SOURCES.items() if isinstance(make(), MatrixSource)} == set(MATRICES)

@@ -7,10 +7,11 @@ from hypothesis import strategies as st
 
 from genc.evaluate.measures import MEASURES, N_BINS, Profile, histograms, profile
 from genc.graph.crowd_graph import CrowdGraph
+from genc.graph.signed_graph import Labelled, SignedGraph
 from genc.words.vocabulary import ACTIONS, CATEGORIES
 
 
-def measured(*graphs: CrowdGraph) -> dict[str, dict[int, int]]:
+def measured(*graphs: Labelled) -> dict[str, dict[int, int]]:
     """For each measure the filled bins of these graphs pooled."""
     pooled = histograms(profile(graphs).sum(0))
     return {
@@ -85,6 +86,30 @@ def test_beyond_the_limits_of_a_group_the_last_bin_is_open() -> None:
     assert found["degree"] == {1: 2, 2: 398, 16: 40}
     assert found["diameter"] == {1: 1, 99: 1}
     assert found["average path length"] == {4: 1, 135: 1}
+
+
+def test_any_signed_adjacency_can_be_measured() -> None:
+    # a sequence edge backwards along a triangle 0-1-2, a branch 2-3 and 2-4, a share edge 5-6 apart
+    adjacency = np.zeros((7, 7), dtype=np.int8)
+    for i, j, sign in ((1, 0, 1), (0, 2, -1), (1, 2, 1), (2, 3, 1), (2, 4, 1), (5, 6, -1)):
+        adjacency[i, j] = adjacency[j, i] = sign
+    found = measured(SignedGraph(adjacency, np.array([9, 8, 7, 6, 5, 4, 3]), np.array([0, 1, 2, 3, 4, 5, 6])))
+    assert found["degree"] == {1: 4, 2: 2, 4: 1}
+    assert found["clustering"] == {0: 4, 3: 1, 19: 2}  # 2 T / (k (k - 1)) = 2 / 12 at node 2, 1 at nodes 0 and 1
+    assert found["diameter"] == {2: 1}
+    assert found["average path length"] == {int(4 * (5 * 1 + 5 * 2 + 1) / 11): 1}
+    assert found["action transition"] == {9 * 13 + 8: 1, 8 * 13 + 7: 1, 7 * 13 + 6: 1, 7 * 13 + 5: 1}
+    assert found["category transition"] == {0 * 8 + 1: 1, 1 * 8 + 2: 1, 2 * 8 + 3: 1, 2 * 8 + 4: 1}
+
+
+def test_transitions_of_the_corpus_are_those_of_its_agents(groups: list[CrowdGraph], authored: Profile) -> None:
+    for group, row in zip(groups, authored, strict=True):
+        order = np.lexsort((group.step, group.agent))
+        same = np.diff(group.agent[order]) == 0
+        before, after = order[:-1][same], order[1:][same]
+        actions, categories = histograms(row)[6:8]
+        assert np.array_equal(actions, np.bincount(13 * group.action[before] + group.action[after], minlength=169))
+        assert np.array_equal(categories, np.bincount(8 * group.category[before] + group.category[after], minlength=64))
 
 
 def test_the_rows_of_the_corpus_count_every_node_and_every_group(groups: list[CrowdGraph], authored: Profile) -> None:

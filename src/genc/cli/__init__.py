@@ -9,7 +9,9 @@ import sys
 
 import click
 
+from genc.cli.authoring import author
 from genc.cli.corpus import corpus
+from genc.cli.evaluating import evaluate
 from genc.cli.exporting import export
 from genc.cli.learning import dataset, train
 from genc.cli.rendering import render
@@ -23,7 +25,7 @@ def cli() -> None:
     """One sentence in, a populated world out."""
 
 
-for command in (populate, stage, story, render, export, corpus, dataset, train):
+for command in (populate, stage, story, render, export, corpus, dataset, train, author, evaluate):
     cli.add_command(command)
 
 

@@ -1,5 +1,5 @@
-"""Measures: how close a crowd of generated groups is to a crowd of authored ones.
+"""Measures: how close a crowd of generated groups is to a crowd of authored ones, and the report that says so.
 
-In: lists of `CrowdGraph`, briefs. Out: divergences beside their floors, adherence, two baselines.
-May import: world and everything below. Never: learn, pipeline, cli.
+In: a `GraphSource`, authored samples. Out: divergences beside their floors, adherence, baselines, an `Evaluation`.
+May import: learn and everything below. Never: pipeline, cli.
 """

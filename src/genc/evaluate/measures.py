@@ -10,13 +10,15 @@ The paper names the descriptors but no bins; these are fixed, so that figures fr
     average path length  graph                       136 bins of 0.25 on [0, 34]
     action               node                        13
     category             node                        8
-    action transition    two steps of one agent      13 x 13, from row to column
-    category transition  two steps of one agent      8 x 8, from row to column
+    action transition    sequence edge               13 x 13, from row to column
+    category transition  sequence edge               8 x 8, from row to column
     joint                node                        13 x 8, action by category
 
-Edges of both kinds count alike and have no direction or weight. Values pool over all groups, so large groups weigh
-more in all but diameter and average path length. The last bin of each of the first four is open: a graph beyond the
-limits of a group falls into it.
+For the first four, edges of both kinds count alike and have no direction or weight. A transition leads along a
+sequence edge from the node of the lower index to that of the higher, which in canonical order is the later. So every
+measure is defined for any signed adjacency, crowd scenario graph or not. Values pool over all groups, so large groups
+weigh more in all but diameter and average path length. The last bin of each of the first four is open: a graph beyond
+the limits of a group falls into it.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import shortest_path
 
-from genc.graph.crowd_graph import CrowdGraph, Ints
+from genc.graph.crowd_graph import Ints
+from genc.graph.signed_graph import Labelled
 from genc.words.vocabulary import ACTIONS, CATEGORIES, MAX_AGENTS, MAX_NODES
 
 N_CLUSTERING_BINS = 20
@@ -65,7 +68,7 @@ Profile = NDArray[np.int32]
 the order of `MEASURES`. Rows add: the sum of rows is the profile of the groups pooled."""
 
 
-def profile(groups: Sequence[CrowdGraph]) -> Profile:
+def profile(groups: Sequence[Labelled]) -> Profile:
     """The profile of these groups, one row each: all that the measures ever look at."""
     return np.array([_row(group) for group in groups], dtype=np.int32).reshape(-1, N_BINS)
 
@@ -75,11 +78,11 @@ def histograms(counts: NDArray[np.integer]) -> list[NDArray[np.integer]]:
     return np.split(counts, _STARTS[1:-1])
 
 
-def _row(graph: CrowdGraph) -> Ints:
+def _row(graph: Labelled) -> Ints:
     linked = graph.adjacency != 0
     degree, clustering = _neighbourhoods(linked)
     diameter, path_bin = _distances(linked)
-    before, after = _consecutive(graph.agent)
+    before, after = _consecutive(graph.adjacency)
     action, category = graph.action, graph.category
     values = (
         degree,
@@ -116,8 +119,7 @@ def _distances(linked: NDArray[np.bool_]) -> tuple[Ints, Ints]:
     return between.max(initial=0, keepdims=True), mean_bin[None]
 
 
-def _consecutive(agent: Ints) -> tuple[Ints, Ints]:
+def _consecutive(adjacency: NDArray[np.int8]) -> tuple[Ints, Ints]:
     """The nodes that an agent comes from and goes to, for each sequence edge."""
-    chains = np.argsort(agent, kind="stable")  # canonical order has each agent's nodes in order of step
-    same = agent[chains][1:] == agent[chains][:-1]
-    return chains[:-1][same], chains[1:][same]
+    before, after = np.nonzero(np.triu(adjacency > 0))
+    return before, after

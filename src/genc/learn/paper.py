@@ -25,8 +25,8 @@ class PaperTraining:
 
     The paper does not say: how beta climbs within a cycle (here linearly through its first half, then it stays: Fu et
     al. 2019), whether sums over nodes and entries become means over graphs of a batch (here they do), which epoch's
-    weights are kept (here those with the lowest objective at beta = 1 on validation groups), and which beta a single
-    VGAE has (here that of the features, at whose top the objective is the ELBO).
+    weights are kept (here the last: those of the lowest held-out loss, which a run remembers too, decode to means of
+    many graphs), and which beta a single VGAE has (here that of the features, at whose top the objective is the ELBO).
     Departs from the paper: a scenario has paraphrases besides its sentence; in each epoch one of its texts is drawn.
 
     Attributes:
@@ -102,7 +102,7 @@ class PaperBatches:
 
 
 class PaperTrainer:
-    """A `Trainee`; what it keeps are the weights that did best on held-out groups."""
+    """A `Trainee`; what it gives are the weights of the last epoch, and its state holds the best on held-out groups."""
 
     def __init__(self, dataset: Dataset, model: PaperConfig, training: PaperTraining, device: torch.device) -> None:
         self.training, self.device = training, device
@@ -166,8 +166,7 @@ class PaperTrainer:
         self.epoch, self.history = epoch, history
 
     def result(self) -> tuple[PaperModel, dict[str, object]]:
-        """The best weights, and the held-out losses of their epoch and of the last."""
-        self.model.load_state_dict(self.kept)
+        """The weights of the last epoch, with the held-out losses of that epoch and of the best."""
         return self.model.cpu(), {"best": self._best(), "last": self.history[-1]}
 
     def _best(self) -> dict[str, float]:

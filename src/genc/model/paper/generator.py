@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from genc.graph.crowd_graph import CrowdGraph, Ints
+from genc.graph.repair import repair, threshold
 from genc.graph.signed_graph import SignedGraph
 from genc.model.condition import Conditions
 from genc.model.paper.graphs import Structures
@@ -67,8 +68,6 @@ class PaperGenerator:
 
     def _decode(self, told: Sequence[Brief], rng: np.random.Generator) -> list[Decoded]:
 
-        from genc.graph.repair import repair, threshold  # TODO top
-
         generator = torch.Generator().manual_seed(int(rng.integers(2**62)))
         z_structure, z_features, condition = self.model.draw_latents(Conditions.of(told, self.encoder), generator)
         matrices = self.model.structure(z_structure, condition).numpy()
@@ -89,16 +88,10 @@ class PaperGenerator:
         """Action and category of the nodes of each graph."""
         structures = Structures.packed([Structures.of(adjacency) for adjacency in adjacencies])
         probabilities = self.model.label(z, condition, structures)
-        action, category = (self._choose(p.numpy(), rng)[structures.moment.numpy()] for p in probabilities)
+        chance = rng if self.drawn else None
+        action, category = (choose(p.numpy(), chance)[structures.moment.numpy()] for p in probabilities)
         ends = np.cumsum(structures.n_nodes.numpy())[:-1]
         return zip(np.split(action, ends), np.split(category, ends), strict=True)
-
-    def _choose(self, probabilities: NDArray[np.float32], rng: np.random.Generator) -> Ints:
-        """One label for each row `[P, K]`."""
-        if not self.drawn:
-            return np.asarray(probabilities.argmax(1))
-        below = probabilities.cumsum(1) < rng.random((len(probabilities), 1))
-        return np.asarray(below.sum(1).clip(max=probabilities.shape[1] - 1))
 
     def _completed(self, brief: Brief, rng: np.random.Generator) -> Brief:
         """The brief with every condition given."""
@@ -109,6 +102,14 @@ class PaperGenerator:
         counts = completed_counts(brief, self.model.known_counts[pick].tolist())
         shares = brief.action_frequencies or tuple(self.model.known_frequencies[pick].tolist())
         return Brief(brief.text, *counts, shares)
+
+
+def choose(probabilities: NDArray[np.float32], rng: np.random.Generator | None) -> Ints:
+    """One label for each row `[P, K]`: drawn, or without an rng the likeliest."""
+    if rng is None:
+        return np.asarray(probabilities.argmax(1))
+    below = probabilities.cumsum(1) < rng.random((len(probabilities), 1))
+    return np.asarray(below.sum(1).clip(max=probabilities.shape[1] - 1))
 
 
 def completed_counts(brief: Brief, like: Sequence[int]) -> tuple[int, int, int]:
