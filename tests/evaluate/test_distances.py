@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from genc.evaluate.distances import kl_divergence
+from genc.evaluate.distances import js_divergence, kl_divergence
 
 counts = st.lists(st.integers(0, 500), min_size=2, max_size=60).filter(any).map(np.array)
 
@@ -45,3 +45,19 @@ def test_the_smoothing_fades_as_data_grow() -> None:
     errors = [abs(kl_divergence(n * authored, n * generated) - exact) for n in (1, 10, 100, 1000)]
     assert errors == sorted(errors, reverse=True)
     assert errors[-1] < 1e-4
+
+
+@given(counts, counts)
+def test_jensen_and_shannon_s_is_symmetric_and_blind_to_totals(one: np.ndarray, other: np.ndarray) -> None:
+    n = min(len(one), len(other))
+    p, q = one[:n] + 1, other[:n] + 1
+    divergence = js_divergence(p, q)
+    assert js_divergence(q, p) == pytest.approx(divergence)
+    assert js_divergence(7 * p, q / 3) == pytest.approx(divergence, abs=1e-12)
+    assert -1e-12 <= divergence < 1
+
+
+def test_jensen_and_shannon_s_is_in_bits() -> None:
+    assert js_divergence([1, 2, 0], [2, 4, 0]) == 0
+    assert js_divergence([1, 0, 0], [0, 1, 1]) == 1
+    assert js_divergence([1, 0], [1, 1]) == pytest.approx(0.311278, abs=1e-6)  # H(3/4) - H(1/2) / 2

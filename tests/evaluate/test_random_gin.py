@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drawn_groups import groups as drawn
 from genc.evaluate.latent import mmd_squared
 from genc.evaluate.random_gin import RandomGin, standardise
 from genc.graph.crowd_graph import CrowdGraph
@@ -13,6 +12,15 @@ from genc.graph.signed_graph import SignedGraph
 from genc.words.vocabulary import ACTIONS, CATEGORIES
 
 GIN = RandomGin()
+
+
+@st.composite
+def drawn(draw: st.DrawFn) -> SignedGraph:
+    """Any signed graph: a decoder of matrices may give every one of them."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    n = draw(st.integers(1, 12))
+    upper = np.triu(rng.choice([0, 0, 1, -1], (n, n)), 1).astype(np.int8)
+    return SignedGraph(upper + upper.T, rng.integers(0, len(ACTIONS), n), rng.integers(0, len(CATEGORIES), n))
 
 
 def graph(edges: dict[tuple[int, int], int], action: list[int], category: list[int] | None = None) -> SignedGraph:
@@ -26,7 +34,7 @@ def chain(action: list[int]) -> SignedGraph:
     return graph({(i, i + 1): 1 for i in range(len(action) - 1)}, action)
 
 
-def permuted(g: CrowdGraph, order: np.ndarray) -> SignedGraph:
+def permuted(g: SignedGraph, order: np.ndarray) -> SignedGraph:
     return SignedGraph(g.adjacency[np.ix_(order, order)], g.action[order], g.category[order])
 
 
@@ -36,14 +44,14 @@ def differ(one: SignedGraph, other: SignedGraph) -> bool:
 
 
 @given(drawn(), st.integers(0, 2**32 - 1))
-def test_the_order_of_nodes_has_no_influence(group: CrowdGraph, seed: int) -> None:
+def test_the_order_of_nodes_has_no_influence(group: SignedGraph, seed: int) -> None:
     order = np.random.default_rng(seed).permutation(group.n_nodes)
     features = GIN.features([group, permuted(group, order)])
     assert features[0] == pytest.approx(features[1], rel=1e-9, abs=1e-9)
 
 
 @given(st.lists(drawn(), min_size=1, max_size=6))
-def test_groups_do_not_see_each_other(some: list[CrowdGraph]) -> None:
+def test_groups_do_not_see_each_other(some: list[SignedGraph]) -> None:
     together = GIN.features(some)
     assert together.shape == (len(some), 3 * 35)
     for features, group in zip(together, some, strict=True):
@@ -51,7 +59,7 @@ def test_groups_do_not_see_each_other(some: list[CrowdGraph]) -> None:
 
 
 @given(drawn())
-def test_it_is_what_a_plain_loop_over_nodes_gives(group: CrowdGraph) -> None:
+def test_it_is_what_a_plain_loop_over_nodes_gives(group: SignedGraph) -> None:
     nodes = GIN._embedding[group.action] + GIN._embedding[len(ACTIONS) + group.category]
     sums = []
     for layer in GIN._layers:
@@ -120,12 +128,12 @@ def test_it_sees_three_edges_far() -> None:
     """Two marked nodes in a long chain: the third layer is the first to feel that they are 5 edges apart, not 7."""
 
     def marked(apart: int) -> SignedGraph:
-        return chain([int(i in (8, 8 + apart)) for i in range(30)])
+        return chain([3 if i in (8, 8 + apart) else 0 for i in range(30)])
 
     features = np.split(GIN.features([marked(n) for n in (5, 7, 9)]), 3, axis=1)
     for layer, (five, seven, nine) in enumerate(features, start=1):
-        assert np.allclose(five, seven) == (layer < 3)
-        assert np.allclose(seven, nine)
+        assert np.allclose(five, seven, rtol=1e-9) == (layer < 3)
+        assert np.allclose(seven, nine, rtol=1e-9)
 
 
 def test_no_groups_have_no_features() -> None:
@@ -137,13 +145,14 @@ def test_on_the_corpus_it_tells_altered_groups_from_authored_ones(groups: list[C
     order = rng.permutation(len(groups))
     train, test, other = ([groups[i] for i in rows] for rows in (order[:1000], order[1000:1500], order[1500:2000]))
     alone = [SignedGraph(np.maximum(g.adjacency, 0), g.action, g.category) for g in other]
-    restless = [SignedGraph(g.adjacency, rng.permutation(g.action), g.category) for g in other]
+    pool = np.concatenate([[g.action, g.category] for g in train], axis=1)
+    random = [SignedGraph(g.adjacency, *(rng.choice(row, len(g.action)) for row in pool)) for g in other]
     scale = GIN.features(train)
-    seen = [standardise(GIN.features(some), scale) for some in (test, other, alone, restless)]
+    seen = [standardise(GIN.features(some), scale) for some in (test, other, alone, random)]
     ground, without_partners, shuffled = (mmd_squared(seen[0], features) for features in seen[1:])
     assert abs(ground) < 0.003
     assert without_partners > 0.01
-    assert shuffled > max(0.001, 1.5 * ground)
+    assert shuffled > 0.01
 
 
 def test_standardised_is_in_units_of_the_training_set() -> None:

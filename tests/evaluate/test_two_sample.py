@@ -81,7 +81,9 @@ def test_a_cluster_is_never_recognised_by_its_own() -> None:
     for _ in range(5):
         naive.append(classifier_two_sample(rows[first], rows[~first], rng).accuracy)
         fair.append(
-            classifier_two_sample(rows[first], rows[~first], rng, (cluster[first], cluster[~first].astype(str))).accuracy
+            classifier_two_sample(
+                rows[first], rows[~first], rng, (cluster[first], cluster[~first].astype(str))
+            ).accuracy
         )
     assert np.mean(naive) > 0.65
     assert np.mean(fair) < 0.55

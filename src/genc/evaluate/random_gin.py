@@ -5,8 +5,9 @@ that training needed. The features of an untrained network belong to nobody, loo
 kinds, actions, categories) and rank generators as well as trained ones do (Thompson et al. 2022, "On Evaluation
 Metrics for Graph Generative Models", arXiv 2201.09871, whose settings these are).
 
-Beside this, what they do not see: the direction of time (a life told backwards has the same features; the transition
-measures see that), and who is who, beyond three edges.
+What they do not see: the direction of time (a life told backwards has the same features), and what lies more than
+three edges apart. What they see badly: most of their variance is the size of the group, and one seed in three hardly
+notices when the actions of each group are dealt anew among its nodes. `two_sample` does.
 """
 
 from __future__ import annotations

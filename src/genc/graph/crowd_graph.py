@@ -55,12 +55,14 @@ class CrowdGraph:
         key = self.event * (self.agent.max() + 1) + self.agent
         if np.any(np.diff(key) < 0):
             return "nodes are not in canonical order"
-        _, members = np.unique(np.stack([self.event, self.agent]), axis=1, return_counts=True)
-        pairs = np.unique(np.stack([self.event, self.agent]), axis=1)[0]
-        if np.any((pairs[1:] == pairs[:-1]) & (members[1:] != members[:-1])):
+        starts = np.flatnonzero(np.r_[True, np.diff(key) > 0])  # of what each agent does in each event
+        lengths = np.diff(np.r_[starts, n])
+        joins = np.r_[False, np.diff(self.event[starts]) == 0]  # an agent of the same event comes before
+        if np.any(joins[1:] & (np.diff(lengths) != 0)):
             return "the agents of an event must all do the same number of things"
-        did = np.stack([self.event, self.turn, self.action, self.category])
-        if len(np.unique(did, axis=1).T) != len(np.unique(did[:2], axis=1).T):
+        node = np.flatnonzero(np.repeat(joins, lengths))
+        before = node - np.repeat(lengths, lengths)[node]  # the same turn of that agent
+        if any(np.any(did[node] != did[before]) for did in (self.action, self.category)):
             return "the agents of an event must do the same thing in each turn"
         return None
 
@@ -134,7 +136,7 @@ class CrowdGraph:
 
 
 def _covers(values: Ints) -> bool:
-    return bool(values.min() == 0 and len(np.unique(values)) == values.max() + 1)
+    return bool(values.min() == 0 and np.bincount(values).all())
 
 
 def _within(values: Ints, size: int) -> bool:

@@ -1,7 +1,7 @@
 """Baselines that learn nothing: what a generator must beat to have learned something.
 
     Random      knows the rules and the marginals     counts exact
-    Perturb     spoils authored groups at random      counts about those of an authored group
+    Perturb     spoils authored groups at random      agents and events of the nearest authored group, as a rule
     Shuffle     an authored structure, labels by lot  counts of the nearest authored group
     Retrieval   the nearest authored group            counts of the nearest authored group
 
