@@ -9,6 +9,7 @@ import pytest
 
 import genc.evaluate.human_study as study
 from genc.errors import StudyError
+from genc.evaluate.distances import js_divergence
 from genc.evaluate.human_study import (
     SYNTHETIC_RESPONSES,
     Prompt,
@@ -188,10 +189,10 @@ def test_each_prompt_counts_the_same_however_many_answered_it():
 
 def test_what_groups_do_is_counted_over_all_their_nodes():
     one = CrowdGraph(np.zeros(3), np.zeros(3), np.array([0, 0, 4]), np.zeros(3))
-    other = CrowdGraph(np.zeros(1), np.zeros(1), np.array([12]), np.zeros(1))
+    other = CrowdGraph(np.zeros(1), np.zeros(1), np.array([11]), np.zeros(1))
     done = performed_actions([one, other])
     assert done.shape == (13,)
-    assert {i: done[i] for i in np.flatnonzero(done)} == {0: 0.5, 4: 0.25, 12: 0.25}
+    assert {i: done[i] for i in np.flatnonzero(done)} == {0: 0.5, 4: 0.25, 11: 0.25}
 
 
 def test_the_floor_is_how_far_people_are_from_each_other():
@@ -200,7 +201,9 @@ def test_the_floor_is_how_far_people_are_from_each_other():
     assert human_floor(agreed, 5, np.random.default_rng(0)) == pytest.approx(0, abs=1e-12)
     opposed = [answer("p1", p, *FIVE) for p in ("hall", "desk")] + [answer("p2", p, *others) for p in ("hall", "desk")]
     assert human_floor(opposed, 5, np.random.default_rng(0)) == pytest.approx(1)
-    assert human_floor([*agreed, opposed[2]], 5, np.random.default_rng(0)) > 0
+    one_of_four = [*agreed[:2], answer("p3", "hall", *FIVE), answer("p4", "hall", *others)]
+    wanted = js_divergence(expected_actions(one_of_four[:2]), expected_actions(one_of_four[2:]))
+    assert human_floor(one_of_four, 5, np.random.default_rng(0)) == pytest.approx(wanted)  # two against two, always
     mixed = read_responses(SYNTHETIC_RESPONSES, read_prompts())
     assert human_floor(mixed, 3, np.random.default_rng(1)) == human_floor(mixed, 3, np.random.default_rng(1))
     assert human_floor(mixed, 9, np.random.default_rng(1), (1, 0, 0, 0, 0)) > human_floor(

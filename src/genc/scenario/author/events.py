@@ -41,7 +41,12 @@ class Wish:
 
 
 def ask_events(
-    model: LanguageModel, stage: Scenario, wish: Wish, examples: Sequence[Scenario], n_asks: int = N_ASKS
+    model: LanguageModel,
+    stage: Scenario,
+    wish: Wish,
+    examples: Sequence[Scenario],
+    n_asks: int = N_ASKS,
+    n_before: int = 0,
 ) -> Scenario:
     """The scenario with the groups that the model writes for its sentence and environment.
 
@@ -51,6 +56,7 @@ def ask_events(
         wish: how much is to be written.
         examples: scenarios of which a part is shown.
         n_asks: questions until the events are given up.
+        n_before: crowds that were asked for with these very words before: another reply is wanted.
 
     Raises:
         ScriptError: with what was wrong with the last reply, if none could be used.
@@ -66,7 +72,8 @@ def ask_events(
         size=wish.words,
         examples="\n\n".join(map(events_example, examples)),
     )
-    question = Question(turns, schema_of(Happenings, names), subject=stage.sentence, step="events")
+    schema = schema_of(Happenings, names)
+    question = Question(turns, schema, n_before * N_ASKS, subject=stage.sentence, step="events")
     return ask_until_sound(model, question, lambda text: read_events(text, stage, wish), n_asks)
 
 
