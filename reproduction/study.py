@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from genc.evaluate.evaluation import Evaluation, Trial
 from genc.evaluate.examine import examine
 from genc.evaluate.material import HELD_OUT, Material, Remembered, read_material
@@ -56,6 +58,7 @@ class Study:
         self.folder, self.seed = dataset, seed
         self.evaluation = cache(self._evaluation)
         self.material = cache(self._material)
+        self.seen = cache(self._seen)
         self.dataset = cache(self._dataset)
         self.paper = cache(self._paper)
         self.codec = cache(lambda: load_generator(encoder=self.encoder()))
@@ -71,6 +74,12 @@ class Study:
     def _material(self, theme: str) -> Material:
         self.dataset()
         return read_material(self.folder, theme, HELD_OUT)
+
+    def _seen(self, theme: str) -> Material:
+        """As many training groups in the place of the held-out ones."""
+        held_out = self.material(theme)
+        rows = np.random.default_rng(self.seed).choice(len(held_out.train), len(held_out.test), replace=False)
+        return replace(held_out, test=[held_out.train[i] for i in rows])
 
     def _paper(self, theme: str, variant: str = "full") -> PaperGenerator:
         """The paper's model of a theme, or an ablation of it."""
@@ -91,7 +100,10 @@ class Study:
         return self.paper(theme, name)
 
     def _evaluation(self, theme: str, name: str, n_repeats: int) -> Evaluation:
-        return examine(self.source(theme, name), self.material(theme), Trial(n_repeats=n_repeats, seed=self.seed), name)
+        """Of a source; `seen` is the paper's model asked with conditions of its training."""
+        material = self.seen(theme) if name == "seen" else self.material(theme)
+        source = self.source(theme, "full" if name == "seen" else name)
+        return examine(source, material, Trial(n_repeats=n_repeats, seed=self.seed), name)
 
 
 def folder_of(theme: str) -> str:

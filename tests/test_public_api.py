@@ -8,6 +8,7 @@ NAMES = [
     *("unfold", "weave", "build_dataset", "load_dataset", "train", "load_generator"),
     *("plan_crowd", "populate", "stage", "read_world", "write_world", "export_world", "tell_agent", "tell_group"),
     *("Trial", "examine", "load_source", "read_material", "write_report"),
+    *("assess", "read_lives", "write_assessment"),
 ]
 
 

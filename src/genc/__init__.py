@@ -16,8 +16,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from genc.errors import GencError as GencError
+    from genc.evaluate.assessment import assess as assess
+    from genc.evaluate.assessment_report import write_assessment as write_assessment
     from genc.evaluate.evaluation import Trial as Trial
     from genc.evaluate.examine import examine as examine
+    from genc.evaluate.lives import read_lives as read_lives
     from genc.evaluate.material import read_material as read_material
     from genc.evaluate.report import write_report as write_report
     from genc.evaluate.sources import load_source as load_source
@@ -52,6 +55,7 @@ _HOME = {
     "GraphSource": "model.source",
     "Trial": "evaluate.evaluation",
     "World": "world.world",
+    "assess": "evaluate.assessment",
     "build_dataset": "learn.build",
     "examine": "evaluate.examine",
     "export_world": "world.export",
@@ -63,6 +67,7 @@ _HOME = {
     "plan_crowd": "plan.crowd",
     "populate": "pipeline",
     "read_environment": "scenario.exchange",
+    "read_lives": "evaluate.lives",
     "read_material": "evaluate.material",
     "read_world": "world.world_file",
     "rehearse": "scenario.rehearse",
@@ -72,6 +77,7 @@ _HOME = {
     "train": "learn.run",
     "unfold": "graph.weave",
     "weave": "graph.weave",
+    "write_assessment": "evaluate.assessment_report",
     "write_report": "evaluate.report",
     "write_script": "scenario.script",
     "write_world": "world.world_file",

@@ -5,7 +5,7 @@ Room: errors. In: nothing. Out: exceptions. May import: nothing.
     GencError                 something genc says in one line; the command line exits with 2
     +-- BriefError            the request cannot be met: empty sentence, a count out of range
     +-- ScriptError           a scenario script, its JSON or a list of seeds is wrong; carries every problem found
-    +-- StudyError            prompts or answers of a user study are wrong; carries every problem found
+    +-- StudyError            prompts, answers or annotations of a study are wrong; carries every problem found
     +-- LayoutError           an environment cannot be used
     +-- ProviderError         a language model cannot be reached, refuses, or gives nothing that can be used
     +-- JournalError          a journal of paid replies is damaged, in use, or of another version
@@ -42,7 +42,7 @@ class ScriptError(GencError):
 
 
 class StudyError(GencError):
-    """Prompts or answers of a user study that cannot be used; `problems` holds one line for each fault."""
+    """Prompts, answers or annotations of a study that cannot be used; `problems` holds one line for each fault."""
 
     def __init__(self, problems: Sequence[str]) -> None:
         self.problems = tuple(problems)

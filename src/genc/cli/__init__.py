@@ -9,6 +9,7 @@ import sys
 
 import click
 
+from genc.cli.assessing import assess
 from genc.cli.authoring import author
 from genc.cli.corpus import corpus
 from genc.cli.evaluating import evaluate
@@ -25,7 +26,7 @@ def cli() -> None:
     """One sentence in, a populated world out."""
 
 
-for command in (populate, stage, story, render, export, corpus, dataset, train, author, evaluate):
+for command in (populate, stage, story, render, export, corpus, dataset, train, author, evaluate, assess):
     cli.add_command(command)
 
 

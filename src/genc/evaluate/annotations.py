@@ -7,7 +7,7 @@ the format and lets the command run.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -46,10 +46,10 @@ def read_annotations(path: Path | str) -> list[Track]:
         StudyError: if the file cannot be read, or with every problem of it.
     """
     rows, problems = read_rows(path, _COLUMNS)
-    first: dict[tuple[str, str, str], str] = {}
+    first: dict[tuple[str, int | str, str], str] = {}
     for where, (clip, window, person, action) in rows:
         problems += [f"{where}: {problem}" for problem in _problems_of(clip, window, person, action)]
-        before = first.setdefault((clip, window.lstrip("0"), person), where)
+        before = first.setdefault((clip, int(window) if _is_number(window) else where, person), where)
         if before != where:
             what = f"a second label of {person!r} in window {window} of {clip!r}, first at {before}"
             problems.append(f"{where}: {what}; keep one of them")
@@ -69,7 +69,7 @@ def _problems_of(clip: str, window: str, person: str, action: str) -> Iterator[s
         yield "clip is empty; give each clip any name or number"
     if not person:
         yield "person is empty; give each person of a clip any name or number"
-    if not (window.isascii() and window.isdecimal() and len(window) <= _MAX_WINDOW_DIGITS):
+    if not _is_number(window):
         yield f"window is {window!r}; number the windows of a clip 0, 1, 2 (the second at which one begins, over 5)"
     if not action:
         yield "action is empty; leave the row out where nothing can be told"
@@ -77,14 +77,17 @@ def _problems_of(clip: str, window: str, person: str, action: str) -> Iterator[s
         yield f"action is no action: {action!r}; {suggest(action, ACTIONS)}"
 
 
+def _is_number(window: str) -> bool:
+    return window.isascii() and window.isdecimal() and len(window) <= _MAX_WINDOW_DIGITS
+
+
 def _tracks(clip: str, person: str, labels: Mapping[int, int]) -> Iterator[Track]:
     for windows in _unbroken(sorted(labels)):
         yield Track(clip, person, windows[0], tuple(labels[window] for window in windows))
 
 
-def _unbroken(windows: Iterable[int]) -> Iterator[list[int]]:
+def _unbroken(windows: list[int]) -> Iterator[list[int]]:
     """Ascending numbers, parted where one is missing."""
-    windows = list(windows)
     breaks = [i for i, (one, other) in enumerate(pairwise(windows), start=1) if other != one + 1]
     for start, stop in pairwise([0, *breaks, len(windows)]):
         yield windows[start:stop]

@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 
 N_LAYERS = 3
 WIDTH = 35
+LEAST_MOVED = 0.01
 EDGE_SIGNS = (1, -1)
 """Of sequence and share edges in the signed adjacency."""
 
@@ -86,11 +87,14 @@ def standardise(features: Floats, train: Floats) -> Floats:
     """The features in units of the training set: its mean is 0 and its standard deviation 1 in each column.
 
     Both sides of a comparison must be brought to the scale of the training set, never each to its own: a generator
-    whose groups are all twice too large would otherwise look perfect. A column that is constant in the training set
-    is only shifted.
+    whose groups are all twice too large would otherwise look perfect. A column that hardly any training group moves
+    (fewer than 1 %: of an untrained network some are nearly dead) is only shifted; a few groups would else rule every
+    distance.
     """
     mean, spread = train.mean(0), train.std(0)
-    constant = spread <= 1e-9 * np.abs(mean)
+    resting = np.median(train, axis=0)
+    moved = np.abs(train - resting) > 1e-9 * np.maximum(np.abs(resting), np.abs(mean))
+    constant = moved.mean(0) < LEAST_MOVED
     scaled: Floats = (features - mean) / np.where(constant, 1.0, spread)
     return scaled
 

@@ -7,7 +7,7 @@ scikit-learn (the extra `evaluate`).
 
 The classifier is a logistic regression on standardised features. On the authored corpus against seven kinds of
 altered and generated groups, gradient boosting and random forests found the same within 0.02 at 1,000 groups a side
-(up to 0.04 more only where the generated set was too narrow) and no more at 150, for 30 to 80 times the time.
+(0.04 more where the generated set was too narrow); at 150 none was ahead throughout. They took 30 to 80 times as long.
 """
 
 from __future__ import annotations
