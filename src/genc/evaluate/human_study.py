@@ -11,7 +11,6 @@ The shipped answers are invented: they show the format and let the harness run.
 
 from __future__ import annotations
 
-import csv
 from collections import Counter, defaultdict
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -20,10 +19,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from genc.errors import StudyError
+from genc.evaluate.csv_rows import read_rows, settle
 from genc.evaluate.distances import js_divergence
 from genc.graph.signed_graph import Labelled
-from genc.scenario.draft import clean
 from genc.scenario.faults import suggest
 from genc.words.vocabulary import ACTION_INDEX, ACTIONS, Action, parse_action
 
@@ -42,8 +40,7 @@ BORDA = (5.0, 4.0, 3.0, 2.0, 1.0)
 _PROMPT_COLUMNS = ("id", "theme", "kind", "text")
 _RESPONSE_COLUMNS = ("participant", "prompt", *(f"rank{i + 1}" for i in range(N_RANKS)))
 
-_Row = tuple[str, list[str]]
-"""Where it stands, and its cells."""
+_PAGE = "docs/study.md"
 
 
 @dataclass(frozen=True)
@@ -71,7 +68,7 @@ def read_prompts(path: Path | str = PROMPTS) -> list[Prompt]:
     Raises:
         StudyError: if the file cannot be read, or with every problem of it.
     """
-    rows, problems = _table(path, _PROMPT_COLUMNS)
+    rows, problems = read_rows(path, _PROMPT_COLUMNS)
     first: dict[str, str] = {}
     for where, cells in rows:
         for column, cell in zip(_PROMPT_COLUMNS, cells, strict=True):
@@ -81,7 +78,7 @@ def read_prompts(path: Path | str = PROMPTS) -> list[Prompt]:
             problems.append(f"{where}: unknown kind {cells[2]!r}; {suggest(cells[2], KINDS)}")
         if first.setdefault(cells[0], where) != where:
             problems.append(f"{where}: a second prompt {cells[0]!r}, first at {first[cells[0]]}; give it its own id")
-    _settle(path, rows, problems)
+    settle(path, rows, problems, _PAGE)
     return [Prompt(*cells) for _, cells in rows]
 
 
@@ -91,7 +88,7 @@ def read_responses(path: Path | str, prompts: Sequence[Prompt]) -> list[Response
     Raises:
         StudyError: if the file cannot be read, or with every problem of it.
     """
-    rows, problems = _table(path, _RESPONSE_COLUMNS)
+    rows, problems = read_rows(path, _RESPONSE_COLUMNS)
     known = {prompt.id for prompt in prompts}
     first: dict[tuple[str, str], str] = {}
     for where, (participant, prompt, *ranks) in rows:
@@ -100,7 +97,7 @@ def read_responses(path: Path | str, prompts: Sequence[Prompt]) -> list[Response
         if before != where:
             what = f"a second answer of {participant!r} to {prompt!r}, first at {before}"
             problems.append(f"{where}: {what}; keep one of them")
-    _settle(path, rows, problems)
+    settle(path, rows, problems, _PAGE)
     return [Response(row[0], row[1], tuple(Action(_folded(cell)) for cell in row[2:])) for _, row in rows]
 
 
@@ -169,48 +166,6 @@ def _problems_of(participant: str, prompt: str, ranks: Sequence[str], known: Col
         if n > 1:
             found.append(f"{cell!r} is ranked {n} times; name {N_RANKS} different actions")
     return found
-
-
-def _table(path: Path | str, columns: Sequence[str]) -> tuple[list[_Row], list[str]]:
-    """The rows below the header that have a cell for each column, and the problems of the others."""
-    rows: list[_Row] = []
-    problems: list[str] = []
-    header: list[str] | None = None
-    for number, line in enumerate(_text(path).split("\n"), start=1):
-        if not line.strip() or line.startswith("#"):
-            continue
-        where = f"{path}:{number}"
-        try:
-            cells = [clean(cell) for cell in next(csv.reader([line], strict=True))]
-        except csv.Error as error:
-            problems.append(f"{where}: no CSV ({error}); a row is one line, and a quote closes in it")
-            continue
-        if header is None:
-            header = cells
-            if cells != list(columns):
-                raise StudyError([f"{where}: the header is {clean(line)[:60]!r}; write '{','.join(columns)}'"])
-        elif len(cells) != len(columns):
-            problems.append(f"{where}: {len(cells)} cells; write {len(columns)}: {','.join(columns)}")
-        else:
-            rows.append((where, cells))
-    return rows, problems
-
-
-def _settle(path: Path | str, rows: Sequence[_Row], problems: Sequence[str]) -> None:
-    if problems:
-        raise StudyError(problems)
-    if not rows:
-        raise StudyError([f"{path}: no rows; write a header and one row each, as docs/study.md says"])
-
-
-def _text(path: Path | str) -> str:
-    try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise StudyError([f"{path}: not UTF-8 text (byte {error.start}); save it as UTF-8"]) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise StudyError([f"{path}: cannot be read ({reason}); check the name and the rights"]) from None
 
 
 def _folded(action: str) -> str:
