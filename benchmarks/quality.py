@@ -22,9 +22,9 @@ from genc.errors import GencError
 from genc.evaluate.adherence import Adherence, adherence
 from genc.evaluate.baselines import Retrieval, Shuffle
 from genc.evaluate.comparison import NAMES, Divergences, compare, floor
+from genc.evaluate.material import ASKS, PARTS, read_material
 from genc.evaluate.measures import Profile, profile
-from genc.graph.describe import full_brief
-from genc.learn.dataset import SPLITS, Dataset, Sample, load_dataset
+from genc.learn.dataset import Sample
 from genc.model.checkpoint import SHIPPED, load_generator
 from genc.model.source import GraphSource
 from genc.words.brief import Brief
@@ -58,21 +58,9 @@ class Outcome:
         return float(totals.std()) / math.sqrt(len(totals)) / ground.total
 
 
-class Remembered:
-    """The `TextEncoder` of a dataset, which knows the vectors of its texts already."""
-
-    def __init__(self, dataset: Dataset) -> None:
-        self.id, self.dimension = dataset.manifest.encoder, dataset.manifest.dimension
-        self._vectors = dict(zip(dataset.texts, dataset.embeddings, strict=True))
-
-    def encode(self, texts: Sequence[str]) -> np.ndarray:
-        return np.array([self._vectors[text] for text in texts])
-
-
-def columns(model: GraphSource, encoder: TextEncoder, train: list[Sample], test: list[Sample]) -> list[Column]:
+def columns(model: GraphSource, encoder: TextEncoder, train: Sequence[Sample], test: Sequence[Sample]) -> list[Column]:
     """The generator as the paper conditions it and with text alone, then the baselines."""
-    full = [full_brief(s.sentence, s.graph) for s in test]
-    sentence, caption = [Brief(s.sentence) for s in test], [Brief(s.caption) for s in test]
+    full, sentence, caption = ([ASKS[way](s) for s in test] for way in ("full", "sentence", "caption"))
     groups = [s.graph for s in train]
     retrieval = Retrieval(groups, [(s.sentence, *s.paraphrases, s.caption) for s in train], encoder)
     return [
@@ -139,15 +127,11 @@ def _row(*cells: str) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def _samples(dataset: Dataset, split: str, theme: str | None) -> list[Sample]:
-    return [s for s in dataset.split(split) if theme in (None, s.theme)]
-
-
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--model", type=Path, default=SHIPPED, help="a folder that 'genc train' made (the shipped one)")
     parser.add_argument("--dataset", type=Path, required=True, help="a folder made by 'genc dataset build'")
-    parser.add_argument("--split", choices=SPLITS[1:], default="test", help="what to compare with")
+    parser.add_argument("--split", choices=PARTS, default="test", help="what to compare with")
     parser.add_argument("--theme", help="only this theme, spelled as in the dataset's manifest")
     parser.add_argument("--repeats", type=int, default=20, help="groups drawn for each brief")
     parser.add_argument("--seed", type=int, default=0)
@@ -157,13 +141,11 @@ def _arguments() -> argparse.Namespace:
 
 def main() -> None:
     args = _arguments()
-    dataset = load_dataset(args.dataset)
-    train, test = _samples(dataset, "train", args.theme), _samples(dataset, args.split, args.theme)
-    if not test:
-        sys.exit(f"no groups of theme {args.theme!r}; the dataset has: {', '.join(dataset.manifest.themes)}")
+    material = read_material(args.dataset, args.theme, args.split)
+    train, test = material.train, material.test
     tested = profile([s.graph for s in test])
     ground = floor(profile([s.graph for s in train]), tested, FLOOR_REPEATS, np.random.default_rng(args.seed))
-    encoder = Remembered(dataset)
+    encoder = material.encoder()
     outcomes = [
         outcome(column, tested, args.repeats, np.random.default_rng([args.seed, i]))
         for i, column in enumerate(columns(load_generator(args.model, encoder), encoder, train, test))

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import pytest
 from language_server import KEY, MODEL, LanguageServer, Mishaps
 
-from genc.cli import main
 from genc.scenario.author.seeds import Seed, write_seeds
 from genc.scenario.corpus import load_corpus, load_theme, themes
 from genc.scenario.script import write_script
@@ -101,20 +99,3 @@ def seeds_file(many_seeds, tmp_path):
         return path
 
     return write
-
-
-@pytest.fixture
-def genc(monkeypatch, capsys):
-    """Runs the command line; gives exit code, output and error lines."""
-
-    def run(*args: object) -> tuple[int, str, list[str]]:
-        monkeypatch.setattr(sys, "argv", ["genc", *map(str, args)])
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        out, err = capsys.readouterr()
-        return code, out, err.splitlines()
-
-    return run

@@ -34,6 +34,8 @@ class PaperTraining:
         learning_rates: from the first epoch to the last, linearly.
         cycle: epochs after which beta begins anew.
         beta_structure, beta_features: its range in each cycle.
+        kl_per_dimension: the KL terms are means over the dimensions of a latent, as some code has them; the paper's
+            formula says sums.
         save_every: epochs between two savings of the run.
     """
 
@@ -45,6 +47,7 @@ class PaperTraining:
     cycle: int = 100
     beta_structure: tuple[float, float] = (0.001, 3.0)
     beta_features: tuple[float, float] = (0.001, 1.0)
+    kl_per_dimension: bool = False
     save_every: int = 10
     seed: int = 0
 
@@ -178,12 +181,13 @@ class PaperTrainer:
 
     def _objective(self, terms: Losses) -> Tensor:
         """L_VGAE-S + L_VGAE-F (Gen-C, Training Objective); they share the condition network alone."""
-        t = self.training
-        beta_features = annealed(t.beta_features, self.epoch, t.cycle)
-        objective = terms.structure + terms.features + beta_features * terms.kl_features
-        if not self.model.config.single:
-            objective = objective + annealed(t.beta_structure, self.epoch, t.cycle) * terms.kl_structure
-        return objective.mean()
+        t, shape = self.training, self.model.config
+        divergence = annealed(t.beta_features, self.epoch, t.cycle) * terms.kl_features
+        if not shape.single:
+            divergence = divergence + annealed(t.beta_structure, self.epoch, t.cycle) * terms.kl_structure
+        if t.kl_per_dimension:
+            divergence = divergence / shape.latent
+        return (terms.structure + terms.features + divergence).mean()
 
 
 def annealed(bounds: tuple[float, float], epoch: int, cycle: int) -> float:
