@@ -6,7 +6,7 @@ import argparse
 import importlib
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -29,7 +29,6 @@ from genc.words.embed import load_encoder
 HERE = Path(__file__).parent
 THEMES = ("university campus", "train station")
 """Of the paper's tables."""
-ABLATIONS = ("unordered", "single")
 TOLERANCE = 0.01
 """Of a repeated figure; equal versions on equal processors give equal figures."""
 
@@ -90,7 +89,7 @@ class Study:
         return generator
 
     def source(self, theme: str, name: str) -> GraphSource:
-        """A baseline, `codec`, or the paper's model: `full`, labels `drawn`, `best` epoch, `unordered`, `single`."""
+        """A baseline, `codec`, or the paper's model: `full`, labels `drawn`, or one of those in `models/`."""
         if name in BASELINES:
             return BASELINES[name](self.material(theme))
         if name == "codec":
@@ -98,6 +97,10 @@ class Study:
         if name == "drawn":
             return replace(self.paper(theme), drawn=True)
         return self.paper(theme, name)
+
+    def evaluations(self, theme: str, names: Mapping[str, str], n_repeats: int) -> dict[str, Evaluation]:
+        """By title the evaluation of each source."""
+        return {title: self.evaluation(theme, name, n_repeats) for title, name in names.items()}
 
     def _evaluation(self, theme: str, name: str, n_repeats: int) -> Evaluation:
         """Of a source; `seen` is the paper's model asked with conditions of its training."""
@@ -129,11 +132,12 @@ def run_experiment(name: str, study: Study, out: Path, *, check: bool) -> Iterat
         SystemExit: if a figure differs from the one on record.
     """
     module = importlib.import_module(f"reproduction.{name}.run")
-    config = json.loads((HERE / name / "config.json").read_text(encoding="utf-8"))
-    result: Result = module.run(study, **config)
+    config, papers = _read(HERE / name / "config.json"), HERE / name / "paper.json"
+    told = {"paper": _read(papers)} if papers.exists() else {}  # not every figure of the paper has numbers
+    result: Result = module.run(study, **told, **config)
     yield result.table
     if check:
-        recorded = json.loads((HERE / name / "result.json").read_text(encoding="utf-8"))
+        recorded = _read(HERE / name / "result.json")
         worst, where = max(differences(recorded["figures"], json.loads(json.dumps(result.figures))), default=(0.0, ""))
         yield f"{name}: greatest difference from the record {worst:.2e} {where}".rstrip()
         if worst > TOLERANCE:
@@ -141,6 +145,10 @@ def run_experiment(name: str, study: Study, out: Path, *, check: bool) -> Iterat
         return
     _write(out / name, config, result)
     yield f"{name}: written to {out / name}"
+
+
+def _read(path: Path) -> Any:
+    return json.loads(path.read_text(encoding="utf-8"))
 
 
 def differences(recorded: Any, found: Any, where: str = "") -> Iterator[tuple[float, str]]:
@@ -185,6 +193,3 @@ def door(names: Sequence[str], description: str | None) -> None:
 def experiments() -> list[str]:
     """The numbered folders."""
     return sorted(path.parent.name for path in HERE.glob("[0-9]*/run.py"))
-
-
-Run = Callable[..., Result]

@@ -7,7 +7,6 @@ Perturb's nodes and edges are added and removed at random, its features uniform;
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -23,13 +22,12 @@ ROWS = {
 OURS = {"Perturb": "perturb", "Gen-C": "full", "Gen-C, labels drawn": "drawn", "codec": "codec"}
 
 
-def run(study: Study, n_repeats: int) -> Result:
+def run(study: Study, paper: Any, n_repeats: int) -> Result:
     """The table of each theme."""
-    paper = json.loads((Path(__file__).parent / "paper.json").read_text(encoding="utf-8"))
     figures: dict[str, Any] = {}
     tables = []
     for theme in THEMES:
-        evaluations = {title: study.evaluation(theme, name, n_repeats) for title, name in OURS.items()}
+        evaluations = study.evaluations(theme, OURS, n_repeats)
         figures[theme] = {title: _column(evaluation) for title, evaluation in evaluations.items()}
         of_model = evaluations["Gen-C"]
         figures[theme]["floor"] = {row: _value(of_model[name], "floor") for row, name in ROWS.items()}

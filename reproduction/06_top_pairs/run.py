@@ -5,7 +5,6 @@ python -m reproduction.06_top_pairs.run
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +13,12 @@ from reproduction.study import THEMES, Result, Study, door
 OURS = {"Gen-C, ours": "full", "Gen-C, ours, labels drawn": "drawn", "codec": "codec"}
 
 
-def run(study: Study, n_repeats: int) -> Result:
+def run(study: Study, paper: Any, n_repeats: int) -> Result:
     """The four most frequent pairs of each source."""
-    paper = json.loads((Path(__file__).parent / "paper.json").read_text(encoding="utf-8"))
     figures: dict[str, Any] = {}
     lines = []
     for theme in THEMES:
-        evaluations = {title: study.evaluation(theme, name, n_repeats) for title, name in OURS.items()}
+        evaluations = study.evaluations(theme, OURS, n_repeats)
         pairs = {"authored, all but held-out": evaluations["Gen-C, ours"].pairs["training"]}
         pairs["authored, held-out"] = evaluations["Gen-C, ours"].pairs["authored"]
         pairs |= {title: evaluation.pairs["generated"] for title, evaluation in evaluations.items()}

@@ -13,7 +13,6 @@ The paper does not say: whether P is sampled with training or with held-out cond
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -38,9 +37,8 @@ UNTRAINED = ("FID, random GIN", "MMD², random GIN", "two-sample accuracy")
 SOURCES = {"Gen-C": "full", "Gen-C, labels drawn": "drawn", "codec": "codec", "random": "random"}
 
 
-def run(study: Study, n_repeats: int, n_plotted: int) -> Result:
+def run(study: Study, paper: Any, n_repeats: int, n_plotted: int) -> Result:
     """The table and one picture for each theme."""
-    paper = json.loads((Path(__file__).parent / "paper.json").read_text(encoding="utf-8"))
     figures: dict[str, Any] = {}
     tables, pictures = [], {}
     for theme, other in zip(THEMES, reversed(THEMES), strict=True):

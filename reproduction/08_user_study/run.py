@@ -10,6 +10,7 @@ prompts: some runs of each sentence, pooled. General prompts: all held-out group
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import numpy as np
 
 from genc.evaluate.distances import js_divergence
 from genc.evaluate.human_study import (
+    KINDS,
     PROMPTS,
     SYNTHETIC_RESPONSES,
     Prompt,
@@ -32,19 +34,17 @@ from genc.words.embed import load_encoder
 from genc.words.vocabulary import ACTIONS
 from reproduction.study import THEMES, Result, Study, door, number, table
 
-PAPER = {("university campus", "specific"): 0.24, ("train station", "specific"): 0.24}
-PAPER |= {("university campus", "general"): 0.308, ("train station", "general"): 0.172}
 SOURCES = ("drawn", "full", "codec")
 
 
-def run(study: Study, responses: str | None, n_runs: int, n_halvings: int) -> Result:
+def run(study: Study, paper: Any, responses: str | None, n_runs: int, n_halvings: int) -> Result:
     """The divergences of each theme and kind of prompt, and bars of both probabilities."""
     prompts = read_prompts(PROMPTS)
     answers = read_responses(responses or SYNTHETIC_RESPONSES, prompts)
     rng = np.random.default_rng(study.seed)
     figures: dict[str, Any] = {"responses": responses or "synthetic", "n_people": len({a.participant for a in answers})}
     rows, bars = [], {}
-    for (theme, kind), paper in PAPER.items():
+    for theme, kind in product(THEMES, KINDS):
         asked = [p for p in prompts if p.theme == theme and p.kind == kind]
         of_these = [a for a in answers if a.prompt in {p.id for p in asked}]
         expected = expected_actions(of_these)
@@ -53,7 +53,9 @@ def run(study: Study, responses: str | None, n_runs: int, n_halvings: int) -> Re
         column = {name: js_divergence(expected, shares) for name, shares in found.items()}
         column |= {"uniform": js_divergence(expected, uniform), "people": human_floor(of_these, n_halvings, rng)}
         figures[f"{theme}, {kind}"] = {"jsd": column, "probabilities": {k: v.tolist() for k, v in found.items()}}
-        rows.append([f"{theme}, {kind}", number(paper, 3), *(number(value, 3) for value in column.values())])
+        rows.append(
+            [f"{theme}, {kind}", number(paper[theme][kind], 3), *(number(value, 3) for value in column.values())]
+        )
         bars[f"{theme}, {kind}"] = (expected, found["drawn"])
     whose = "synthetic answers" if responses is None else responses
     header = [f"JSD, bits ({whose})", "Gen-C, paper (29 people)", *("Gen-C, labels drawn", "Gen-C", "codec")]
@@ -89,5 +91,4 @@ def _picture(bars: dict[str, tuple[Any, Any]]) -> Any:
 
 
 if __name__ == "__main__":
-    assert {theme for theme, _ in PAPER} == set(THEMES)
     door([Path(__file__).parent.name], __doc__)
