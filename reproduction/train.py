@@ -24,6 +24,7 @@ from reproduction.study import HERE, THEMES, folder_of
 
 MODELS: dict[str, tuple[str, dict[str, bool]]] = {variant: (variant, {}) for variant in VARIANTS}
 MODELS["kl-per-dimension"] = ("full", {"kl_per_dimension": True})
+MODELS["single-kl-per-dimension"] = ("single", {"kl_per_dimension": True})
 """For each model its shape and what is special about its training."""
 
 

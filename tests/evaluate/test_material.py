@@ -41,10 +41,11 @@ def _small_corpus(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def hidden(folder: Path, some: Sequence[Scenario]) -> Path:
-    """Scripts of these scenarios that no corpus has: another name, another sentence."""
+    """Scripts that no corpus has: these scenarios with another name, sentence and caption."""
     folder.mkdir()
     for i, s in enumerate(some):
-        told = replace(s, slug=f"hidden-{i}", sentence=f"{s.sentence} It snows.")
+        groups = (replace(s.groups[0], caption="they came in from the snow"), *s.groups[1:])
+        told = replace(s, slug=f"hidden-{i}", sentence=f"{s.sentence} It snows.", groups=groups)
         (folder / f"{i}.txt").write_text(write_script([told]), encoding="utf-8")
     return folder
 
@@ -81,6 +82,9 @@ def test_scripts_are_all_compared_with_the_shipped_corpus(tmp_path: Path) -> Non
     assert [s.graph for s in found.test] == [s.graph for s in samples(some, 0)]
     assert {s.theme for s in found.train} == {themes()[0]}  # of the theme compared, for there are enough
     assert not found.notes
+    copied = tmp_path / "copied.txt"
+    copied.write_text(write_script([replace(s, sentence=f"{s.sentence} It snows.") for s in some]), encoding="utf-8")
+    assert "3 of these scenarios come with genc" in read_material(copied).notes[0]
     assert all(s.sentence.endswith("It snows.") for s in found.test)
 
 

@@ -66,9 +66,8 @@ def evaluate(  # noqa: PLR0913 - one parameter for each option
     total = evaluation["total"]
     for note in evaluation.notes:
         click.echo(f"note: {note}", err=True)
-    if total.generated is not None and total.floor is not None:
-        click.echo(
-            f"{model}: {total.generated.mean:.3f} nats from {len(material.test):,} authored groups, "
-            f"{total.ratio(total.generated):.2f} times the floor"
-        )
+    if total.generated is not None:
+        ratio = total.ratio(total.generated)
+        floor = "" if ratio is None else f", {ratio:.2f} times the floor"
+        click.echo(f"{model}: {total.generated.mean:.3f} nats from {len(material.test):,} authored groups{floor}")
     click.echo(f"{page}: open it in a browser")

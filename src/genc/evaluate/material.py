@@ -123,10 +123,11 @@ def _of_dataset(place: Path, dataset: Dataset, theme: str | None, part: str) -> 
 
 def _of_scripts(place: Path, scenarios: Sequence[Scenario], theme: str | None, seed: int) -> Material:
     test = _of_theme(samples(scenarios, seed), theme, str(place))
-    told = {sample.sentence for sample in test}
+    told, played = {s.sentence for s in scenarios}, {s.groups for s in scenarios}
     shipped = load_corpus()
-    train, notes = _akin(samples([s for s in shipped if s.sentence not in told], seed), test)
-    if known := len(told & {s.sentence for s in shipped}):
+    unlike = [s for s in shipped if s.sentence not in told and s.groups not in played]
+    train, notes = _akin(samples(unlike, seed), test)
+    if known := len(shipped) - len(unlike):
         notes += (f"{known} of these scenarios come with genc: a shipped model may have learned from them.",)
     return Material(train, test, _facts(place, corpus_hash(scenarios), "scripts", test), notes)
 
@@ -154,10 +155,10 @@ def _of_theme(found: list[Sample], theme: str | None, source: str) -> list[Sampl
 
 
 def _akin(train: list[Sample], test: Sequence[Sample]) -> tuple[list[Sample], tuple[str, ...]]:
-    """The training groups of the themes that are compared if there are enough, else all; and a note if so."""
+    """The training groups of the themes compared, if twice as many, to draw a floor from; else all, and a note."""
     themes = {sample.theme for sample in test}
     akin = [sample for sample in train if sample.theme in themes]
-    if len(akin) >= len(test):
+    if len(akin) >= 2 * len(test):
         return akin, ()
     return train, ("There are too few training groups of these themes: the floor is that of all themes.",)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from genc.errors import CheckpointError
 from genc.evaluate.baselines import Perturb, Random, Retrieval, Shuffle
 from genc.evaluate.material import Material
-from genc.model.checkpoint import SHIPPED, load_generator
+from genc.model.checkpoint import SHIPPED, load_generator, shipped_models
 from genc.model.source import GraphSource
 
 BASELINES: dict[str, Callable[[Material], GraphSource]] = {
@@ -27,7 +27,9 @@ groups alone."""
 
 
 def load_source(name: Path | str, material: Material) -> GraphSource:
-    """The baseline of that name, or else the generator in the folder of that name; 'shipped' is the one in the package.
+    """The baseline of that name, or else the generator in that folder or shipped under that name.
+
+    'shipped' is the one that is used unless another is named.
 
     Raises:
         CheckpointError: if there is neither, or the weights cannot be used.
@@ -36,9 +38,9 @@ def load_source(name: Path | str, material: Material) -> GraphSource:
     if str(name) in BASELINES:
         return BASELINES[str(name)](material)
     folder = SHIPPED if str(name) == "shipped" else Path(name)
-    if not folder.is_dir():
+    if not folder.is_dir() and str(name) not in shipped_models():
         raise CheckpointError(
             f"{name}: neither a folder of a model nor a baseline: name a folder that 'genc train' has made, or one of "
-            f"{', '.join(BASELINES)}"
+            f"{', '.join([*shipped_models(), *BASELINES])}"
         )
     return load_generator(folder)
