@@ -109,7 +109,8 @@ def test_a_budget_stops_the_run_and_more_lets_it_go_on(serve, author, seeds_file
     assert "the budget of 30,000 tokens is used up" in err[0]
     assert "go on with the same command and a larger --max-tokens-total" in err[0]
     journal = authored.journal_of(tmp_path / "ski")
-    assert 10_000 < journal.usage().total <= 30_000
+    # a reply may be dearer than any before it, which is what is set aside for it
+    assert 10_000 < journal.usage().total <= 33_000
     journal.close()
     assert author(server, *words, 10_000_000)[0] == 0
     assert len(server.books) == 2 * n_whole
