@@ -3,11 +3,11 @@
     python -m reproduction.02_ablation.run
 
 "as decoded": entries of 0.5 and more in size are edges (what the paper, which names no repair, must have measured);
-"repaired": the nearest valid group. Beyond the paper: the floor; Gen-C and Single with KL terms that are means over the
-dimensions of a latent, as some code has them; Gen-C asked with conditions of its training, compared with the groups
-that had them (what a split by group in place of one by scenario comes near to); its labels drawn rather than the likeliest
-taken; its weights of the epoch that did best on validation groups; and the `codec` generator of this package, which was
-trained on all themes.
+"repaired": the nearest valid group. Beyond the paper: the floor; Gen-C and Single with KL terms that are means over
+the dimensions of a latent, as some code has them; Gen-C asked with conditions of its training, compared with the
+groups that had them (what a split by group in place of one by scenario comes near to); its labels drawn rather than the
+likeliest taken; its weights of the epoch that did best on validation groups; and the `codec` generator of this
+package, which was trained on all themes.
 """
 
 from __future__ import annotations
