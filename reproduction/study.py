@@ -114,12 +114,6 @@ def folder_of(theme: str) -> str:
     return theme.replace(" ", "-")
 
 
-def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table; all columns but the first are numbers."""
-    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
-
-
 def number(value: float | None, digits: int = 4) -> str:
     """A figure of a table; empty where there is none."""
     return "" if value is None or math.isnan(value) else f"{value:.{digits}f}"

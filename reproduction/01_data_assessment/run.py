@@ -14,9 +14,10 @@ from typing import Any
 from genc.evaluate.assessment import Assessment, assess
 from genc.evaluate.assessment_report import deviations_table
 from genc.evaluate.lives import of_samples
+from genc.evaluate.tables import markdown_table
 from genc.evaluate.transition_maps import transition_maps
 from genc.learn.dataset import SPLITS
-from reproduction.study import THEMES, Result, Study, door, number, table
+from reproduction.study import THEMES, Result, Study, door, number
 
 N_SHOWN = 8
 
@@ -36,7 +37,7 @@ def run(study: Study, paper: Any) -> Result:
 def _entropies(found: Assessment, paper: Any) -> str:
     ours = {f"{s.lives.name}, {found.size} agents": (s.entropy, s.low, s.high) for s in found.sides.values()}
     rows = [[name, *(number(value, 3) for value in interval)] for name, interval in (paper | ours).items()]
-    return table(["normalised entropy of action sequences", "", "95 % from", "to"], rows)
+    return markdown_table(["normalised entropy of action sequences", "", "95 % from", "to"], rows)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from genc.evaluate.evaluation import Evaluation
-from reproduction.study import THEMES, Result, Study, door, number, table
+from genc.evaluate.tables import markdown_table
+from reproduction.study import THEMES, Result, Study, door, number
 
 ROWS = {
     "Degree": "degree",
@@ -78,7 +79,7 @@ def _beside(figures: dict[str, Any], paper: dict[str, Any]) -> str:
             cells += [number(paper[title][row]), number(column.get("as decoded", column["repaired"])[row])]
         rows.append([*cells, number(figures["floor"][row])])
     header = ["", *(f"{title}, {whose}" for title in PAPERS for whose in ("paper", "ours")), "floor"]
-    return table(header, rows)
+    return markdown_table(header, rows)
 
 
 def _wide(figures: dict[str, Any], state: str) -> str:
@@ -89,7 +90,7 @@ def _wide(figures: dict[str, Any], state: str) -> str:
     ]
     extra = "valid as decoded, %" if state == "as decoded" else "changed by repair, %"
     rows.append([extra, *(number(column.get(extra), 1) for column in columns.values()), ""])
-    return table(["", *columns, "floor"], rows)
+    return markdown_table(["", *columns, "floor"], rows)
 
 
 if __name__ == "__main__":

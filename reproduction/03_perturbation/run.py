@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from genc.evaluate.evaluation import Evaluation, Figure
-from reproduction.study import THEMES, Result, Study, door, number, table
+from genc.evaluate.tables import markdown_table
+from reproduction.study import THEMES, Result, Study, door, number
 
 ROWS = {
     "Act. Trans.": "action transition",
@@ -61,7 +62,7 @@ def _table(figures: dict[str, Any], paper: dict[str, Any]) -> str:
         ("floor", figures["floor"]),
     ]
     rows = [[row, *(number(column.get(row), 3) for _, column in columns)] for row in ROWS]
-    return table(["", *(title for title, _ in columns)], rows)
+    return markdown_table(["", *(title for title, _ in columns)], rows)
 
 
 if __name__ == "__main__":

@@ -25,10 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genc.evaluate.sequences import action_sequences, normalised_entropy
+from genc.evaluate.tables import markdown_table
 from genc.model.source import GraphSource
 from genc.pipeline import sample_groups
 from genc.plan.compose import compose
-from reproduction.study import THEMES, Result, Study, door, number, table
+from reproduction.study import THEMES, Result, Study, door, number
 
 THEME = THEMES[0]
 SOURCES = {"Gen-C": "full", "Gen-C, labels drawn": "drawn", "codec": "codec"}
@@ -58,7 +59,7 @@ def run(study: Study, sizes: list[int], n_seeds: int, endpoint: dict[str, str] |
     columns = [*entropies.values(), *times_s.values(), *asked.values()]
     rows = [[str(size), *(_cell(column[i], 3) for column in columns)] for i, size in enumerate(sizes)]
     picture = _picture(sizes, entropies, times_s)
-    told = f"{THEME.title()}, {n_seeds} seeds; mean ± half a 95 % interval\n\n" + table(header, rows)
+    told = f"{THEME.title()}, {n_seeds} seeds; mean ± half a 95 % interval\n\n" + markdown_table(header, rows)
     return Result({"entropy": entropies}, told, {"scaling.png": picture}, {"seconds": times_s, **asked})
 
 

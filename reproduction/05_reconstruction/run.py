@@ -15,8 +15,9 @@ import numpy as np
 
 from genc.evaluate.evaluation import Evaluation
 from genc.evaluate.measures import BINS_PER_STEP, N_CLUSTERING_BINS
+from genc.evaluate.tables import markdown_table
 from genc.words.vocabulary import ACTIONS, CATEGORIES
-from reproduction.study import THEMES, Result, Study, door, number, table
+from reproduction.study import THEMES, Result, Study, door, number
 
 PANELS = {
     "degree": 1.0,
@@ -51,7 +52,7 @@ def run(study: Study, n_repeats: int) -> Result:
     ]
     titles = [f"{theme.title()}, {what}" for theme in THEMES for what in ("KLD", "labels drawn", "floor")]
     pictures = {f"{theme.replace(' ', '_')}.png": _picture(evaluations[theme], theme) for theme in THEMES}
-    return Result(figures, table(["", *titles], rows), pictures)
+    return Result(figures, markdown_table(["", *titles], rows), pictures)
 
 
 def _picture(evaluation: Evaluation, theme: str) -> Any:

@@ -22,6 +22,7 @@ import torch
 from numpy.typing import NDArray
 
 from genc.evaluate.latent import bandwidth, frechet_distance, mmd_squared
+from genc.evaluate.tables import markdown_table
 from genc.graph.codec import canonical
 from genc.graph.crowd_graph import CrowdGraph
 from genc.graph.describe import full_brief
@@ -29,7 +30,7 @@ from genc.model.condition import Conditions
 from genc.model.paper.generator import PaperGenerator
 from genc.model.paper.graphs import Batch
 from genc.words.brief import Brief
-from reproduction.study import THEMES, Result, Study, door, number, table
+from reproduction.study import THEMES, Result, Study, door, number
 
 Floats = NDArray[np.float64]
 SPACES = ("S", "F")
@@ -108,13 +109,13 @@ def _table(figures: dict[str, Any], paper: dict[str, Any]) -> str:
         for measure in ("FID", "MMD²"):
             told = [number(paper[space][f"{measure[:3]}{mix}"]) for mix in ("", " (Mix)")]
             rows.append([f"{space} {measure}", *told, *(number(figures[space][c][measure]) for c in columns)])
-    return table(["", "Gen-C, paper", "Mix, paper", "floor", "Gen-C, ours", "Mix, ours", *columns[3:]], rows)
+    return markdown_table(["", "Gen-C, paper", "Mix, paper", "floor", "Gen-C, ours", "Mix, ours", *columns[3:]], rows)
 
 
 def _untrained_table(figures: dict[str, Any]) -> str:
     columns = ["floor", *SOURCES]
     rows = [[name, *(number(figures["untrained"][c][name], 3) for c in columns)] for name in UNTRAINED]
-    return table(["", *columns], rows)
+    return markdown_table(["", *columns], rows)
 
 
 def _picture(latents: dict[str, dict[str, Floats]], theme: str, n_plotted: int) -> Any:

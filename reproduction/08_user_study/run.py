@@ -29,10 +29,11 @@ from genc.evaluate.human_study import (
     read_responses,
 )
 from genc.evaluate.material import ASKS
+from genc.evaluate.tables import markdown_table
 from genc.words.brief import Brief
 from genc.words.embed import load_encoder
 from genc.words.vocabulary import ACTIONS
-from reproduction.study import THEMES, Result, Study, door, number, table
+from reproduction.study import THEMES, Result, Study, door, number
 
 SOURCES = ("drawn", "full", "codec")
 
@@ -59,7 +60,9 @@ def run(study: Study, paper: Any, responses: str | None, n_runs: int, n_halvings
         bars[f"{theme}, {kind}"] = (expected, found["drawn"])
     whose = "synthetic answers" if responses is None else responses
     header = [f"JSD, bits ({whose})", "Gen-C, paper (29 people)", *("Gen-C, labels drawn", "Gen-C", "codec")]
-    return Result(figures, table([*header, "uniform", "people, half by half"], rows), {"actions.png": _picture(bars)})
+    return Result(
+        figures, markdown_table([*header, "uniform", "people, half by half"], rows), {"actions.png": _picture(bars)}
+    )
 
 
 def _performed(study: Study, theme: str, kind: str, prompts: list[Prompt], name: str, n_runs: int) -> Any:

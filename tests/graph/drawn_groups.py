@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from random import Random
+
+import numpy as np
 from hypothesis import strategies as st
 
 from genc.graph.crowd_graph import CrowdGraph
@@ -31,3 +34,12 @@ def records(draw: st.DrawFn) -> list[Record]:
 def groups() -> st.SearchStrategy[CrowdGraph]:
     """One group: a connected part of drawn records."""
     return records().map(lambda drawn: weave(drawn).groups()[0])
+
+
+def renumbered(group: CrowdGraph, random: Random) -> CrowdGraph:
+    """The same group with its agents numbered anyhow."""
+    number = list(range(group.n_agents))
+    random.shuffle(number)
+    agent = np.array(number)[group.agent]
+    order = np.lexsort((group.step, agent, group.event))
+    return CrowdGraph(agent[order], group.event[order], group.action[order], group.category[order])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from drawn_groups import groups
+from drawn_groups import groups, renumbered
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,11 +41,7 @@ def test_tokens_that_spell_no_graph_are_refused(structure, n_actions, n_categori
 
 @given(groups(), st.randoms(use_true_random=False))
 def test_renumbering_agents_changes_nobodys_life(group, random):
-    number = list(range(group.n_agents))
-    random.shuffle(number)
-    agent = np.array(number)[group.agent]
-    order = np.lexsort((group.step, agent, group.event))
-    renamed = CrowdGraph(agent[order], group.event[order], group.action[order], group.category[order])
+    renamed = renumbered(group, random)
     assert _lives(canonical(renamed)) == _lives(canonical(group)) == _lives(group)
     assert len(encode(renamed).structure) == len(encode(group).structure)
 

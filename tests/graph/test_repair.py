@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from drawn_groups import groups
+from drawn_groups import groups, renumbered
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -86,11 +86,7 @@ def test_the_same_matrix_gives_the_same_group(request):
 @given(groups(), st.randoms(use_true_random=False))
 def test_rows_keep_their_edges_and_labels(group, random):
     """Agents numbered anyhow: the rows of each event come out in another order, each with what it had."""
-    number = list(range(group.n_agents))
-    random.shuffle(number)
-    agent = np.array(number)[group.agent]
-    order = np.lexsort((group.step, agent, group.event))
-    renamed = CrowdGraph(agent[order], group.event[order], group.action[order], group.category[order])
+    renamed = renumbered(group, random)
     repaired = repair(renamed.adjacency, renamed.n_agents, renamed.n_events)
     assert repaired.changes == 0
     assert np.array_equal(renamed.adjacency[np.ix_(repaired.node, repaired.node)], repaired.adjacency)

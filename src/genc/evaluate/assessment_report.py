@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from genc.evaluate.assessment import Assessment
 from genc.evaluate.provenance import check_extra
+from genc.evaluate.tables import markdown_table
 from genc.evaluate.transition_maps import transition_maps
 from genc.files import ensure_folder, write_text, written_beside
 from genc.words.vocabulary import ACTIONS
@@ -87,7 +87,7 @@ def figures_table(assessment: Assessment) -> str:
     rows.append([at_size, *(f"{interval['mean']:.4f}" for interval in intervals)])
     rows.append(["its 95 % interval", *(_ends(interval["low"], interval["high"]) for interval in intervals)])
     rows.append(["of all, which do not compare", *(f"{side['entropy_of_all']:.4f}" for side in told)])
-    return "\n".join(_table(["", *assessment.sides], rows))
+    return markdown_table(["", *assessment.sides], rows)
 
 
 def deviations_table(assessment: Assessment, n_shown: int = N_DEVIATIONS) -> str:
@@ -101,7 +101,7 @@ def deviations_table(assessment: Assessment, n_shown: int = N_DEVIATIONS) -> str
         ]
         for found in assessment.deviations[:n_shown]
     ]
-    return "\n".join(_table(["%", *assessment.sides, "A − B", "95 %"], rows))
+    return markdown_table(["%", *assessment.sides, "A − B", "95 %"], rows)
 
 
 def _how_many_are_sure(assessment: Assessment) -> str:
@@ -115,8 +115,3 @@ def _how_many_are_sure(assessment: Assessment) -> str:
 
 def _ends(low: float | None, high: float | None) -> str:
     return "" if low is None or high is None else f"{low:.4f} to {high:.4f}"
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    for cells in (heads, ["---", *["---:"] * (len(heads) - 1)], *rows):
-        yield "| " + " | ".join(cells) + " |"

@@ -17,13 +17,11 @@ from genc.evaluate.annotations import read_annotations
 from genc.evaluate.material import samples
 from genc.evaluate.sequences import ActionSequence, action_sequences
 from genc.graph.crowd_graph import Ints
-from genc.learn.dataset import SPLITS, Sample, load_dataset
+from genc.learn.dataset import SPLITS, Sample, is_dataset, load_dataset
 from genc.scenario.corpus import load_scripts, load_theme
 
 FEWEST_LIVES = 10
 """Below that nothing can be said of how various they are."""
-_OF_DATASETS = ("manifest.json", "groups.safetensors", "partial")
-"""Any of these makes a folder a dataset, be it an incomplete one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +85,7 @@ def read_lives(place: Path | str, seed: int = 0) -> Lives:
     path = Path(place)
     if path.suffix.casefold() == ".csv":
         return _of_annotations(path)
-    if any(os.path.exists(path / name) for name in _OF_DATASETS):
+    if is_dataset(path):
         dataset = load_dataset(path)
         return of_samples(str(place), [sample for part in SPLITS for sample in dataset.split(part)])
     if os.path.exists(path):

@@ -13,8 +13,8 @@ from genc.errors import BriefError, DatasetError, ScriptError
 from genc.graph.codec import canonical
 from genc.graph.describe import full_brief
 from genc.learn.build import told_groups
-from genc.learn.dataset import SPLITS, Dataset, Sample, load_dataset
-from genc.scenario.corpus import corpus_hash, load_corpus, load_scripts
+from genc.learn.dataset import SPLITS, Dataset, Sample, is_dataset, load_dataset
+from genc.scenario.corpus import corpus_hash, folded_theme, load_corpus, load_scripts
 from genc.scenario.scenario import Scenario
 from genc.words.brief import Brief
 from genc.words.embed import TextEncoder, Vectors, load_encoder
@@ -95,7 +95,7 @@ def read_material(path: Path | str, theme: str | None = None, part: str | None =
         BriefError: for a theme that is not there.
     """
     place = Path(path)
-    if any((place / name).exists() for name in ("manifest.json", "partial", "groups.safetensors")):
+    if is_dataset(place):
         return _of_dataset(place, load_dataset(place), theme, part or PARTS[0])
     if part is not None:
         raise DatasetError(f"{place}: scripts have no {part} part: leave the split out, all of them are compared")
@@ -147,7 +147,7 @@ def _scripts(place: Path) -> tuple[Scenario, ...]:
 def _of_theme(found: list[Sample], theme: str | None, source: str) -> list[Sample]:
     if theme is None:
         return found
-    of_theme = [s for s in found if _folded(s.theme) == _folded(theme)]
+    of_theme = [s for s in found if folded_theme(s.theme) == folded_theme(theme)]
     if not of_theme:
         known = ", ".join(sorted({s.theme for s in found}))
         raise BriefError(f"{source}: no groups of theme {theme!r}; there are groups of: {known}")
@@ -171,7 +171,3 @@ def _facts(place: Path, digest: str, part: str, test: Sequence[Sample]) -> Facts
         "themes": ", ".join(sorted({s.theme for s in test})),
         "n_scenarios": len({s.scenario for s in test}),
     }
-
-
-def _folded(theme: str) -> str:
-    return " ".join(theme.replace("_", " ").replace("-", " ").split()).casefold()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from genc.evaluate.evaluation import ADHERENCE, CHARACTER, DISTANCE, Evaluation, Figure
@@ -56,6 +56,12 @@ def facts(evaluation: Evaluation) -> Table:
     """What the evaluation was made of and with."""
     told = [(name.replace("_", " "), value) for name, value in evaluation.facts.items() if value is not None]
     return Table("Made of and with", ["", ""], [[Cell(name), Cell(f"{value}")] for name, value in told])
+
+
+def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown; all columns but the first are numbers."""
+    lines = [heads, ["---", *["---:"] * (len(heads) - 1)], *rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in lines)
 
 
 def _figures(title: str, figures: Sequence[Figure]) -> Table:

@@ -149,6 +149,12 @@ def split_by_scenario(themes: Sequence[str], seed: int) -> list[str]:
     return parts
 
 
+def is_dataset(path: Path | str) -> bool:
+    """Whether a folder holds a dataset, be it an incomplete one."""
+    # os.path, for it takes a name that is too long for one that is not there
+    return any(os.path.exists(Path(path) / name) for name in ("manifest.json", "groups.safetensors", "partial"))
+
+
 def load_dataset(path: Path | str) -> Dataset:
     """The dataset in that folder.
 

@@ -95,7 +95,7 @@ class PaperBatches:
     def fixed(self, size: int) -> Iterator[tuple[Batch, Conditions]]:
         """Every group once, in order, asked for by its scenario's sentence."""
         for start in range(0, len(self), size):
-            rows = list(range(len(self)))[start : start + size]
+            rows = list(range(start, min(start + size, len(self))))
             yield self.batch(rows, [self.texts[g][0] for g in rows])
 
     def batch(self, rows: list[int], texts: list[int]) -> tuple[Batch, Conditions]:

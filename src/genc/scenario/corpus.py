@@ -30,7 +30,7 @@ def load_theme(name: str) -> tuple[Scenario, ...]:
         BriefError: for an unknown theme; names the known ones.
     """
     folders = _theme_folders()
-    folder = {_folded(theme): folder for theme, folder in folders.items()}.get(_folded(name))
+    folder = {folded_theme(theme): folder for theme, folder in folders.items()}.get(folded_theme(name))
     if folder is None:
         known = ", ".join(folders)
         nearest = suggest(name, folders)
@@ -91,7 +91,8 @@ def _scripts_in(folder: Path) -> list[Path]:
     return sorted(f for f in folder.rglob("*") if f.suffix in (".txt", ".json") and f.is_file())
 
 
-def _folded(theme: str) -> str:
+def folded_theme(theme: str) -> str:
+    """The name of a theme, the same however it is spelled."""
     return clean(theme.replace("_", " ").replace("-", " ")).casefold()
 
 

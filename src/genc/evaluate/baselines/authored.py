@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genc.graph.crowd_graph import CrowdGraph, Ints
+from genc.graph.describe import count_gaps, nearest_counts
 from genc.words.brief import Brief
 from genc.words.vocabulary import ACTIONS, CATEGORIES
 
@@ -26,19 +27,12 @@ class AuthoredCounts:
         self._log = np.log(self.values)
 
     def gaps(self, brief: Brief) -> NDArray[np.float64]:
-        """`[n]` how far each group is from what a brief asks for: the sum of the absolute log ratios of its counts."""
-        gaps: NDArray[np.float64] = np.nansum(np.abs(self._log - np.log(asked_counts(brief))), axis=1)
-        return gaps
+        """`[n]` how far each group is from what a brief asks for."""
+        return count_gaps(self._log, brief)
 
     def nearest(self, brief: Brief) -> NDArray[np.intp]:
         """The groups that are nearest to what a brief asks for; all of them where it asks for no count."""
-        gaps = self.gaps(brief)
-        return np.flatnonzero(gaps == gaps.min())
-
-
-def asked_counts(brief: Brief) -> NDArray[np.float64]:
-    """`[3]` agents, events and nodes that a brief asks for; nan where it does not."""
-    return np.array([brief.n_agents, brief.n_events, brief.n_nodes], dtype=np.float64)
+        return nearest_counts(self._log, brief)
 
 
 def action_shares(groups: Sequence[CrowdGraph]) -> Shares:

@@ -9,9 +9,10 @@ import torch
 from numpy.typing import NDArray
 from scipy.special import gammaln
 
-from genc.evaluate.baselines.authored import AuthoredCounts, Shares, action_shares, asked_counts, category_shares
+from genc.evaluate.baselines.authored import AuthoredCounts, Shares, action_shares, category_shares
 from genc.graph.codec import Tokens, decode
 from genc.graph.crowd_graph import CrowdGraph, Ints
+from genc.graph.describe import asked_counts
 from genc.model.rules import StructureRules, feasible_counts
 from genc.words.brief import Brief
 from genc.words.vocabulary import ACTIONS, CATEGORIES, MAX_AGENTS

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from genc.graph.crowd_graph import CrowdGraph, Ints
+from genc.graph.describe import nearest_counts
 from genc.graph.repair import repair, threshold
 from genc.graph.signed_graph import SignedGraph
 from genc.model.condition import Conditions
@@ -67,19 +68,17 @@ class PaperGenerator:
         return answers
 
     def _decode(self, told: Sequence[Brief], rng: np.random.Generator) -> list[Decoded]:
-
         generator = torch.Generator().manual_seed(int(rng.integers(2**62)))
         z_structure, z_features, condition = self.model.draw_latents(Conditions.of(told, self.encoder), generator)
         matrices = self.model.structure(z_structure, condition).numpy()
         matrices = [matrix[: b.n_nodes, : b.n_nodes] for matrix, b in zip(matrices, told, strict=True)]
         signed = [threshold(matrix) for matrix in matrices]
         repaired = [repair(matrix, b.n_agents, b.n_events) for matrix, b in zip(matrices, told, strict=True)]
-        unlabelled = [r.labelled(none := np.zeros(len(r.node), dtype=np.int64), none) for r in repaired]
         labels = self._labels(z_features, condition, signed, rng)
-        mended = self._labels(z_features, condition, [g.adjacency for g in unlabelled], rng)
+        mended = self._labels(z_features, condition, [r.adjacency for r in repaired], rng)
         return [
-            Decoded(SignedGraph(raw, *of_raw), CrowdGraph(g.agent, g.event, *of_group), r.change_rate)
-            for raw, of_raw, g, of_group, r in zip(signed, labels, unlabelled, mended, repaired, strict=True)
+            Decoded(SignedGraph(raw, *of_raw), CrowdGraph(r.agent, r.event, *of_group), r.change_rate)
+            for raw, of_raw, r, of_group in zip(signed, labels, repaired, mended, strict=True)
         ]
 
     def _labels(
@@ -95,10 +94,7 @@ class PaperGenerator:
 
     def _completed(self, brief: Brief, rng: np.random.Generator) -> Brief:
         """The brief with every condition given."""
-        known = self.model.known_counts.numpy().astype(np.float64)
-        asked = np.array([brief.n_agents, brief.n_events, brief.n_nodes], dtype=np.float64)  # None becomes nan
-        distance = np.nansum(np.abs(np.log(known) - np.log(asked)), axis=1)
-        pick = rng.choice(np.flatnonzero(distance == distance.min()))
+        pick = rng.choice(nearest_counts(np.log(self.model.known_counts.numpy().astype(np.float64)), brief))
         counts = completed_counts(brief, self.model.known_counts[pick].tolist())
         shares = brief.action_frequencies or tuple(self.model.known_frequencies[pick].tolist())
         return Brief(brief.text, *counts, shares)
