@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sqlite3
 import sys
 from collections import Counter
@@ -31,6 +32,8 @@ def _main(words: Sequence[str], environment: dict[str, str]) -> None:
 
     # so that locks leave no names behind when the process is killed
     set_start_method("fork", force=True)
+    # a shell starts what runs in its background deaf to an interruption, and so would this be
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     os.environ.update(environment)
     sys.argv = ["genc", *words]
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - the process ends with it
